@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Flags that every target of this project shares, and the one way to declare a stage or a test.
+
+add_library(farop_build_flags INTERFACE)
+target_compile_features(farop_build_flags INTERFACE cxx_std_20)
+# No contraction: the fast and the plain path of one calculation must round alike on every machine.
+target_compile_options(farop_build_flags INTERFACE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+                                                   -Wno-sign-conversion -Wnon-virtual-dtor -Wold-style-cast)
+if(FAROP_WARNINGS_AS_ERRORS)
+  target_compile_options(farop_build_flags INTERFACE -Werror)
+endif()
+if(FAROP_SANITIZE)
+  target_compile_options(farop_build_flags INTERFACE -fsanitize=${FAROP_SANITIZE} -fno-sanitize-recover=all
+                                                     -fno-omit-frame-pointer)
+  target_link_options(farop_build_flags INTERFACE -fsanitize=${FAROP_SANITIZE})
+endif()
+
+# farop_add_stage(NAME SOURCES ... [PUBLIC libs] [PRIVATE libs]): one library per room of src/.
+function(farop_add_stage name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(farop_${name} STATIC ${ARG_SOURCES})
+  add_library(farop::${name} ALIAS farop_${name})
+  set_target_properties(farop_${name} PROPERTIES EXPORT_NAME ${name})
+  target_include_directories(farop_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
+                                                  $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/farop>)
+  target_compile_features(farop_${name} PUBLIC cxx_std_20)
+  target_link_libraries(farop_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE} $<BUILD_INTERFACE:farop_build_flags>)
+endfunction()
+
+# farop_add_test(NAME SOURCES ... LIBS ...): one GoogleTest program; its cases become ctest tests.
+function(farop_add_test name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+  target_compile_definitions(${name} PRIVATE FAROP_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  target_link_libraries(${name} PRIVATE ${ARG_LIBS} GTest::gtest_main farop_build_flags)
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 120 PROPERTIES TIMEOUT 600)
+endfunction()

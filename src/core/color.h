@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Linear colours, no gamma anywhere.
+#pragma once
+
+namespace farop {
+
+/// Red, green, blue; 0..1 unless a scene says otherwise (values outside are kept as read and clamped at
+/// output).
+struct Rgb {
+  double r = 0, g = 0, b = 0;
+
+  friend bool operator==(const Rgb&, const Rgb&) = default;
+  friend Rgb operator*(const Rgb& a, double s) { return {a.r * s, a.g * s, a.b * s}; }
+  friend Rgb operator*(const Rgb& a, const Rgb& b) { return {a.r * b.r, a.g * b.g, a.b * b.b}; }
+  friend Rgb operator+(const Rgb& a, const Rgb& b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }
+  Rgb& operator+=(const Rgb& o) { return *this = *this + o; }
+};
+
+/// Every channel limited to [0,1].
+Rgb clamp01(const Rgb& c);
+
+}  // namespace farop

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Words of a text file with their positions, read block by block: memory does not grow with the file.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "core/diagnostics.h"
+#include "core/progress.h"
+
+namespace farop {
+
+/// A run of bytes without white space. `text` is valid until the next call of WordReader::next().
+struct Word {
+  std::string_view text;
+  std::uint64_t line = 0;    ///< from 1; LF, CR and CRLF each end a line
+  std::uint64_t column = 0;  ///< from 1, in bytes
+  std::uint64_t offset = 0;  ///< of the first byte in the file
+};
+
+/// White space is space, tab, LF, CR, FF, VT; `#` starts a comment that runs to the end of the line, also
+/// directly behind a word. A UTF-8 byte order mark at the start is skipped. All other bytes, NUL included,
+/// belong to words; a NUL also ends a comment, so that binary data cannot hide in one. A word is cut after
+/// k_max_word bytes (its rest is dropped), so that junk cannot fill the memory.
+class WordReader {
+ public:
+  static constexpr std::size_t k_max_word = 4096;
+
+  /// Opens a file; "-" is standard input. Throws Error(ExitStatus::input) when it cannot be opened or is a
+  /// directory; reading errors throw the same from next().
+  explicit WordReader(const std::string& path);
+  /// Reads `text` (not copied; it must outlive the reader) under the name `name`.
+  WordReader(std::string_view text, std::string name);
+  ~WordReader();
+  WordReader(const WordReader&) = delete;
+  WordReader& operator=(const WordReader&) = delete;
+
+  /// The next word; false at the end of the file.
+  bool next(Word& word);
+  /// A second character that starts a comment where a word could start ('%' in the AFF dialect), 0 for none.
+  void set_second_comment_character(char c) { second_comment_ = c; }
+
+  const std::string& name() const { return name_; }
+  std::uint64_t bytes_read() const { return consumed_ + position_; }
+  /// Size of the file, 0 when not known (pipes).
+  std::uint64_t bytes_total() const { return total_; }
+  void set_progress(ProgressFunction progress) { progress_ = std::move(progress); }
+
+  /// Position just behind the last byte read.
+  SourceLocation here() const { return {name_, line_, column()}; }
+  /// A diagnostic about a word that next() delivered, with its source line while that is still in the buffer.
+  Diagnostic diagnostic(Severity severity, const Word& word, std::string message,
+                        std::string hint = {}) const;
+
+ private:
+  bool fill();
+  std::uint64_t column() const { return consumed_ + position_ - line_start_ + 1; }
+  void end_line(char c);
+  void skip_comment();
+  void skip_rest_of_word();
+
+  std::string name_;
+  int descriptor_ = -1;
+  std::unique_ptr<char[]> storage_;
+  const char* data_ = nullptr;
+  std::size_t position_ = 0;  ///< next byte in data_
+  std::size_t end_ = 0;
+  std::uint64_t consumed_ = 0;  ///< file offset of data_[0]
+  std::uint64_t line_ = 1;
+  std::uint64_t line_start_ = 0;  ///< file offset of the current line
+  std::uint64_t total_ = 0;
+  bool last_was_cr_ = false;
+  bool word_was_cut_ = false;
+  bool at_end_ = false;
+  char second_comment_ = 0;
+  ProgressFunction progress_;
+};
+
+}  // namespace farop

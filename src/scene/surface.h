@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A surface: one material, a vertex list and the polygons that share it, stored compactly.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <span>
+#include <vector>
+
+#include "core/math.h"
+#include "shading/material.h"
+
+namespace farop {
+
+/// One polygon of a surface: planar, convex or concave, no holes, at least 3 corners, counter-clockwise seen
+/// from the front. Corners are indices into the surface's vertex arrays.
+struct PolygonView {
+  std::span<const std::uint32_t> corners;
+  bool has_given_normals = false;  ///< NFF `pp`: Surface::normals holds a normal for every corner
+};
+
+/// Polygons in order, as one stream of records [corner count and flag][corner]...: 4 bytes a polygon beside
+/// its corners, so that scenes of 10^8 polygons fit in memory. Read front to back only.
+class PolygonList {
+ public:
+  class Iterator {
+   public:
+    using iterator_category = std::forward_iterator_tag;
+    using value_type = PolygonView;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const PolygonView*;
+    using reference = PolygonView;
+
+    Iterator() = default;
+    explicit Iterator(const std::uint32_t* at) : at_(at) {}
+    PolygonView operator*() const { return {{at_ + 1, *at_ & k_count_mask}, (*at_ & k_given_normals) != 0}; }
+    Iterator& operator++() {
+      at_ += 1 + (*at_ & k_count_mask);
+      return *this;
+    }
+    Iterator operator++(int) {
+      Iterator old = *this;
+      ++*this;
+      return old;
+    }
+    friend bool operator==(const Iterator&, const Iterator&) = default;
+
+   private:
+    const std::uint32_t* at_ = nullptr;
+  };
+
+  Iterator begin() const { return Iterator(records_.data()); }
+  Iterator end() const { return Iterator(records_.data() + records_.size()); }
+  std::uint64_t size() const { return count_; }
+  bool empty() const { return count_ == 0; }
+
+  /// Opens a record; its corners follow with add_corner(), then end_polygon().
+  void begin_polygon(bool has_given_normals);
+  void add_corner(std::uint32_t vertex) { records_.push_back(vertex); }
+  void end_polygon();
+  /// Drops the corners of the record that is open.
+  void cancel_polygon() { records_.resize(open_); }
+  std::uint32_t open_corners() const { return static_cast<std::uint32_t>(records_.size() - open_ - 1); }
+
+  void shrink_to_fit() { records_.shrink_to_fit(); }
+  std::size_t memory_bytes() const { return records_.capacity() * sizeof(std::uint32_t); }
+
+  friend bool operator==(const PolygonList&, const PolygonList&) = default;
+
+ private:
+  static constexpr std::uint32_t k_given_normals = 0x80000000u;
+  static constexpr std::uint32_t k_count_mask = 0x3FFFFFFFu;
+
+  std::vector<std::uint32_t> records_;
+  std::uint64_t count_ = 0;
+  std::size_t open_ = 0;
+};
+
+/// NFF `s`. Radius > 0; inside_visible: only the inside is seen (NFF: a negative radius).
+struct Sphere {
+  V3d center;
+  double radius = 0;
+  bool inside_visible = false;
+  friend bool operator==(const Sphere&, const Sphere&) = default;
+};
+
+/// NFF `c`: open cone or cylinder without end caps. Radii >= 0, not both 0; base != apex.
+struct Cone {
+  V3d base;
+  double base_radius = 0;
+  V3d apex;
+  double apex_radius = 0;
+  bool inside_visible = false;
+  friend bool operator==(const Cone&, const Cone&) = default;
+};
+
+/// A sphere or cone, and the number of polygons of its surface that stand before it.
+struct CurvedPrimitive {
+  enum class Kind : std::uint8_t { sphere, cone };
+  Kind kind = Kind::sphere;
+  Sphere sphere;
+  Cone cone;
+  std::uint64_t after_polygons = 0;
+  friend bool operator==(const CurvedPrimitive&, const CurvedPrimitive&) = default;
+};
+
+/// Material + vertices + polygons (+ curved primitives until loading ends). Local coordinates, right-handed.
+struct Surface {
+  Material material;
+  std::vector<V3d> positions;
+  /// Given normals as read (any length), parallel to positions; empty when no polygon has any. Entries of
+  /// vertices whose polygons have none are 0 0 0 and mean nothing.
+  std::vector<V3d> normals;
+  /// Averages over the polygons that share a vertex, parallel to positions, unit length or zero (then the
+  /// plane normal serves); empty unless average_normals() (scene/plane.h) made them. Not part of what was
+  /// read.
+  std::vector<V3d> averaged_normals;
+  PolygonList polygons;
+  std::vector<CurvedPrimitive> curved;
+  /// Degenerate triangles that tessellating pointed cones made: expected, so nobody is warned of them.
+  std::uint64_t cone_tip_triangles = 0;
+
+  std::size_t memory_bytes() const;
+  /// Equality of what was read: material, vertices, polygons, curved primitives.
+  friend bool operator==(const Surface& a, const Surface& b) {
+    return a.material == b.material && a.positions == b.positions && a.normals == b.normals &&
+           a.polygons == b.polygons && a.curved == b.curved;
+  }
+};
+
+}  // namespace farop

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <map>
+#include <random>
+#include <tuple>
+
+#include "scene/plane.h"
+#include "scene/surface_builder.h"
+
+namespace farop {
+namespace {
+
+void add_polygon(SurfaceBuilder& builder, const std::vector<V3d>& corners) {
+  builder.begin_polygon(false);
+  for (const V3d& p : corners) builder.add_corner(p);
+  builder.end_polygon();
+}
+
+TEST(SurfaceBuilder, NeighboursShareTheirVertices) {
+  SurfaceBuilder builder;
+  add_polygon(builder, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}});
+  add_polygon(builder, {{0, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+  const Surface s = builder.take();
+  EXPECT_EQ(s.positions.size(), 4u);
+  ASSERT_EQ(s.polygons.size(), 2u);
+  const PolygonView second = *std::next(s.polygons.begin());
+  EXPECT_EQ(std::vector<std::uint32_t>(second.corners.begin(), second.corners.end()),
+            (std::vector<std::uint32_t>{0, 2, 3}));
+}
+
+TEST(SurfaceBuilder, ZeroAndMinusZeroAreDifferentVertices) {
+  SurfaceBuilder builder;
+  add_polygon(builder, {{0, 0, 0}, {-0.0, 0, 0}, {1, 1, 0}});
+  EXPECT_EQ(builder.take().positions.size(), 3u);
+}
+
+// Against the definition: an ordered map over all bits, on surfaces that mix both kinds of corner.
+TEST(SurfaceBuilder, NumbersVerticesLikeAPlainMap) {
+  std::mt19937 random(7);
+  const auto below = [&](unsigned n) { return static_cast<double>(random() % n); };
+  for (int round = 0; round < 300; ++round) {
+    SurfaceBuilder builder;
+    std::map<std::tuple<bool, double, double, double, double>, std::uint32_t> expected;
+    std::vector<std::uint32_t> numbers;
+    const int kinds = round % 3;  // plain, given, mixed
+    const int polygons = 1 + static_cast<int>(random() % 60);
+    for (int p = 0; p < polygons; ++p) {
+      const bool given = kinds == 1 || (kinds == 2 && random() % 2 == 0);
+      builder.begin_polygon(given);
+      for (int c = 0; c < 3; ++c) {
+        const V3d position(below(4), below(4), below(2));
+        const V3d normal(0, 0, below(2));
+        if (given) {
+          builder.add_corner(position, normal);
+        } else {
+          builder.add_corner(position);
+        }
+        const auto key = std::tuple(given, position.x, position.y, position.z, given ? normal.z : -1.0);
+        numbers.push_back(
+            expected.try_emplace(key, static_cast<std::uint32_t>(expected.size())).first->second);
+      }
+      builder.end_polygon();
+    }
+    const Surface s = builder.take();
+    ASSERT_EQ(s.positions.size(), expected.size());
+    ASSERT_EQ(s.normals.size(), s.normals.empty() ? 0u : expected.size());
+    std::vector<std::uint32_t> got;
+    for (const PolygonView polygon : s.polygons) {
+      for (const std::uint32_t v : polygon.corners) got.push_back(v);
+    }
+    ASSERT_EQ(got, numbers) << "round " << round;
+  }
+}
+
+TEST(SurfaceBuilder, StartsAfreshAfterTake) {
+  SurfaceBuilder builder;
+  add_polygon(builder, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}});
+  const Surface first = builder.take();
+  add_polygon(builder, {{1, 0, 0}, {0, 0, 0}, {0, 1, 0}});
+  const Surface second = builder.take();
+  EXPECT_EQ(second.positions.front(), V3d(1, 0, 0));
+  EXPECT_EQ(second.positions.size(), 3u);
+  EXPECT_TRUE(builder.empty());
+}
+
+TEST(PolygonList, CancelledPolygonsLeaveNoTrace) {
+  PolygonList list;
+  list.begin_polygon(true);
+  list.add_corner(5);
+  list.cancel_polygon();
+  list.begin_polygon(false);
+  for (std::uint32_t i = 0; i < 4; ++i) list.add_corner(i);
+  list.end_polygon();
+  ASSERT_EQ(list.size(), 1u);
+  const PolygonView p = *list.begin();
+  EXPECT_FALSE(p.has_given_normals);
+  EXPECT_EQ(p.corners.size(), 4u);
+  EXPECT_EQ(std::next(list.begin()), list.end());
+}
+
+const std::vector<std::uint32_t> k_ring = {0, 1, 2, 3, 4};
+
+TEST(PlaneNormal, PointsToTheSideFromWhichTheCornersRunCounterClockwise) {
+  const std::vector<V3d> concave_at_first_corner = {{1, 1, 7}, {0, 4, 7}, {-4, 0, 7}, {4, 0, 7}};
+  const auto n = plane_normal(concave_at_first_corner, std::span(k_ring).first(4));
+  ASSERT_TRUE(n);
+  EXPECT_NEAR((*n - V3d(0, 0, 1)).length(), 0, 1e-15);
+}
+
+TEST(PlaneNormal, SurvivesADegenerateFirstCorner) {
+  const std::vector<V3d> p = {{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 0, -3}};
+  const auto n = plane_normal(p, k_ring);
+  ASSERT_TRUE(n);
+  EXPECT_NEAR((*n - V3d(0, 1, 0)).length(), 0, 1e-15);
+}
+
+TEST(PlaneNormal, IsMissingExactlyForDegeneratePolygonsWhateverTheirPlaceAndSize) {
+  for (const double scale : {1e-200, 1e-30, 1.0, 1e30, 1e150}) {
+    for (const double shift : {0.0, 1e3}) {
+      const auto at = [&](double x, double y) {
+        return V3d(scale * (x + shift), scale * (y + shift), scale * shift);
+      };
+      const std::vector<V3d> thin = {at(0, 0), at(1, 0), at(2, 1e-9), at(1, 1e-9)};
+      const std::vector<V3d> line = {at(0, 0), at(1, 1), at(2, 2), at(3, 3)};
+      const std::vector<V3d> point = {at(1, 1), at(1, 1), at(1, 1), at(1, 1)};
+      EXPECT_TRUE(plane_normal(thin, std::span(k_ring).first(4))) << scale << " " << shift;
+      EXPECT_FALSE(plane_normal(line, std::span(k_ring).first(4))) << scale << " " << shift;
+      EXPECT_FALSE(plane_normal(point, std::span(k_ring).first(4))) << scale << " " << shift;
+    }
+  }
+}
+
+TEST(AverageNormals, WeighEveryPolygonOfAVertexEquallyAndSkipDegenerateOnes) {
+  SurfaceBuilder builder;
+  add_polygon(builder, {{0, 0, 0}, {5, 0, 0}, {0, 5, 0}});  // +z, large
+  add_polygon(builder, {{0, 0, 0}, {0, 1, 0}, {0, 0, 1}});  // +x, small
+  add_polygon(builder, {{0, 0, 0}, {0, 1, 0}, {0, 2, 0}});  // no area
+  Surface s = builder.take();
+  average_normals(s);
+  EXPECT_NEAR((s.averaged_normals[0] - V3d(1, 0, 1).normalized()).length(), 0, 1e-15);
+  EXPECT_NEAR((s.averaged_normals[1] - V3d(0, 0, 1)).length(), 0, 1e-15);
+}
+
+TEST(AverageNormals, OppositePolygonsSumToZero) {
+  SurfaceBuilder builder;
+  add_polygon(builder, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  add_polygon(builder, {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}});
+  Surface s = builder.take();
+  average_normals(s);
+  for (const V3d& n : s.averaged_normals) EXPECT_EQ(n, V3d(0, 0, 0));
+}
+
+}  // namespace
+}  // namespace farop
