@@ -10,9 +10,9 @@ struct Rgb {
   double r = 0, g = 0, b = 0;
 
   friend bool operator==(const Rgb&, const Rgb&) = default;
-  friend Rgb operator*(const Rgb& a, double s) { return {a.r * s, a.g * s, a.b * s}; }
-  friend Rgb operator*(const Rgb& a, const Rgb& b) { return {a.r * b.r, a.g * b.g, a.b * b.b}; }
-  friend Rgb operator+(const Rgb& a, const Rgb& b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }
+  friend Rgb operator*(const Rgb& c, double s) { return {c.r * s, c.g * s, c.b * s}; }
+  friend Rgb operator*(const Rgb& c, const Rgb& o) { return {c.r * o.r, c.g * o.g, c.b * o.b}; }
+  friend Rgb operator+(const Rgb& c, const Rgb& o) { return {c.r + o.r, c.g + o.g, c.b + o.b}; }
   Rgb& operator+=(const Rgb& o) { return *this = *this + o; }
 };
 

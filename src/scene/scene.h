@@ -25,7 +25,7 @@ struct Object {
 
 /// A point light in world space. Without a colour it is white and its intensity is the program's choice.
 struct Light {
-  V3d position;
+  V3d position{0, 0, 0};
   std::optional<Rgb> color;
   friend bool operator==(const Light&, const Light&) = default;
 };

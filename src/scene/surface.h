@@ -79,7 +79,7 @@ class PolygonList {
 
 /// NFF `s`. Radius > 0; inside_visible: only the inside is seen (NFF: a negative radius).
 struct Sphere {
-  V3d center;
+  V3d center{0, 0, 0};
   double radius = 0;
   bool inside_visible = false;
   friend bool operator==(const Sphere&, const Sphere&) = default;
@@ -87,9 +87,9 @@ struct Sphere {
 
 /// NFF `c`: open cone or cylinder without end caps. Radii >= 0, not both 0; base != apex.
 struct Cone {
-  V3d base;
+  V3d base{0, 0, 0};
   double base_radius = 0;
-  V3d apex;
+  V3d apex{0, 0, 0};
   double apex_radius = 0;
   bool inside_visible = false;
   friend bool operator==(const Cone&, const Cone&) = default;

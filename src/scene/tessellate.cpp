@@ -2,8 +2,8 @@
 #include "scene/tessellate.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
+#include <cmath>
 #include <cstddef>
 #include <numbers>
 #include <unordered_map>
@@ -29,20 +29,15 @@ V3d unit(const V3d& v) {
   return l > 0 ? v / l : v;
 }
 
-/// -0 becomes 0: corners of neighbouring triangles must agree bit for bit to become one vertex.
-V3d without_negative_zero(const V3d& v) {
-  return v + V3d(0);
-}
-
 /// Hands over triangles given for the outside; turns them round for primitives that are seen from inside.
-void emit_facing(bool inside_visible, TessellationCorner a, const TessellationCorner& b, TessellationCorner c,
-                 const TriangleFunction& emit) {
+void emit_facing(bool inside_visible, const TessellationCorner& a, const TessellationCorner& b,
+                 const TessellationCorner& c, const TriangleFunction& emit) {
   if (!inside_visible) {
     emit({a, b, c});
     return;
   }
   const auto turned = [](const TessellationCorner& corner) {
-    return TessellationCorner{corner.position, V3d(0) - corner.normal};
+    return TessellationCorner{corner.position, -corner.normal};
   };
   emit({turned(c), turned(b), turned(a)});
 }
@@ -186,15 +181,20 @@ Surface tessellated(const Surface& surface, const std::vector<int>& resolutions)
     builder.end_polygon();
   };
 
+  std::uint64_t cone_tip_triangles = 0;
   std::size_t next = 0;
   const auto add_curved_before = [&](std::uint64_t polygon) {
     for (; next < surface.curved.size() && surface.curved[next].after_polygons <= polygon; ++next) {
       if (resolutions[next] == 0) continue;
       const CurvedPrimitive& primitive = surface.curved[next];
-      if (primitive.kind == CurvedPrimitive::Kind::sphere)
+      if (primitive.kind == CurvedPrimitive::Kind::sphere) {
         tessellate(primitive.sphere, resolutions[next], add_triangle);
-      else
+      } else {
         tessellate(primitive.cone, resolutions[next], add_triangle);
+        // At a tip every quadrilateral strip of the construction has one triangle without area.
+        const bool pointed = primitive.cone.base_radius == 0 || primitive.cone.apex_radius == 0;
+        if (pointed) cone_tip_triangles += 4 * static_cast<std::uint64_t>(resolutions[next]);
+      }
     }
   };
 
@@ -211,7 +211,9 @@ Surface tessellated(const Surface& surface, const std::vector<int>& resolutions)
     builder.end_polygon();
   }
   add_curved_before(index);
-  return builder.take();
+  Surface done = builder.take();
+  done.cone_tip_triangles = cone_tip_triangles;
+  return done;
 }
 
 }  // namespace
@@ -221,7 +223,7 @@ void tessellate(const Sphere& sphere, int resolution, const TriangleFunction& em
   const auto r = static_cast<std::size_t>(resolution);
   std::vector<V3d> directions = cube_face_directions(resolution);
   const auto corner = [&](std::size_t u, std::size_t v) {
-    const V3d normal = without_negative_zero(directions[u * (r + 1) + v]);
+    const V3d& normal = directions[u * (r + 1) + v];
     return TessellationCorner{sphere.center + normal * sphere.radius, normal};
   };
   for (int face = 0; face < 6; ++face) {
@@ -254,9 +256,9 @@ void tessellate(const Cone& cone, int resolution, const TriangleFunction& emit) 
     // The last side is the first: angles wrap, so that the seam closes to the last bit.
     const double angle = 2 * k_pi * (i % sides) / sides;
     const V3d outward = start * std::cos(angle) + quarter_turned * std::sin(angle);
-    const V3d normal = without_negative_zero(slope == 0 ? outward : unit(outward * height + axis * slope));
-    return Side{{without_negative_zero(cone.apex + outward * cone.apex_radius), normal},
-                {without_negative_zero(cone.base + outward * cone.base_radius), normal}};
+    const V3d normal = slope == 0 ? outward : unit(outward * height + axis * slope);
+    return Side{{cone.apex + outward * cone.apex_radius, normal},
+                {cone.base + outward * cone.base_radius, normal}};
   };
 
   Side previous = side(0);

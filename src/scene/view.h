@@ -31,7 +31,7 @@ struct ViewParameters {
 
 /// A complete camera. World space is right-handed.
 struct Camera {
-  V3d from, at, up{0, 1, 0};
+  V3d from{0, 0, 0}, at{0, 0, -1}, up{0, 1, 0};
   double angle_degrees = 45;
   Fit fit = Fit::vertical;
   double hither = 0;

@@ -12,7 +12,7 @@ namespace farop {
 
 /// A point light in the space of the positions it is used with; `color` includes the intensity.
 struct PointLight {
-  V3d position;
+  V3d position{0, 0, 0};
   Rgb color{1, 1, 1};
 };
 

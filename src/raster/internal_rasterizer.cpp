@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "raster/internal_rasterizer.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "core/error.h"
+#include "core/limits.h"
+#include "raster/line.h"
+#include "raster/polygon_filler.h"
+#include "raster/resolve.h"
+#include "raster/sample_buffer.h"
+
+namespace farop {
+namespace {
+
+[[noreturn]] void broken_contract(const std::string& what) {
+  throw Error(ExitStatus::internal, "internal rasterizer: " + what);
+}
+
+/// Runs `work`; running out of memory becomes an Error that says for what.
+template <class Work>
+void with_memory(const ScreenFrame& frame, Work&& work) {
+  const auto fail = [&] {
+    throw Error(ExitStatus::surroundings,
+                fmt::format("not enough memory to draw a frame of {} x {} samples", frame.resolution.x,
+                            frame.resolution.y),
+                "use a smaller --resolution or fewer --samples");
+  };
+  try {
+    std::forward<Work>(work)();
+  } catch (const std::bad_alloc&) {
+    fail();
+  } catch (const std::length_error&) {
+    fail();
+  }
+}
+
+void check(const ScreenFrame& frame, int samples) {
+  const Resolution& r = frame.resolution;
+  if (frame.y_down) broken_contract("y must grow upwards");
+  if (samples < 1 || samples > k_max_samples) broken_contract(fmt::format("{} samples", samples));
+  const int limit = samples * k_max_resolution;
+  if (r.x < 1 || r.y < 1 || r.x > limit || r.y > limit || r.x % samples != 0 || r.y % samples != 0 ||
+      r.z < k_min_depth_resolution || r.z > k_max_depth_resolution || r.color < k_min_color_resolution ||
+      r.color > k_max_color_resolution || frame.subpixel_bits < 0 ||
+      frame.subpixel_bits > k_max_subpixel_bits) {
+    broken_contract(fmt::format("frame {} {} {} {}, {} sub-pixel bits, {} samples", r.x, r.y, r.z, r.color,
+                                frame.subpixel_bits, samples));
+  }
+}
+
+std::array<std::uint8_t, 3> to_bytes(const Rgb& c) {
+  return {to_byte(255 * c.r), to_byte(255 * c.g), to_byte(255 * c.b)};
+}
+
+/// White, or black on a bright background.
+std::array<std::uint8_t, 3> line_color(const Rgb& background) {
+  const double luminance = 0.2126 * background.r + 0.7152 * background.g + 0.0722 * background.b;
+  return luminance > 0.5 ? std::array<std::uint8_t, 3>{0, 0, 0} : std::array<std::uint8_t, 3>{255, 255, 255};
+}
+
+/// Nearest whole pixel, halves upwards; the outer ends of a half-pixel border belong to the outermost pixels.
+std::int64_t whole_pixel(std::int32_t v, const ScreenFrame& frame, int size) {
+  const std::int64_t half = (std::int64_t{1} << frame.subpixel_bits) >> 1;
+  const std::int64_t pixel = (v + half) >> frame.subpixel_bits;
+  return frame.half_pixel_border && pixel == size ? size - 1 : pixel;
+}
+
+}  // namespace
+
+/// Samples, and what draws into them.
+struct InternalRasterizer::FilledFrame {
+  FilledFrame(const ScreenFrame& frame, const InternalRasterizerOptions& options, RasterCounts& counts)
+      : buffer(make_buffer(frame, options)), filler(frame, buffer, options.lights_eye, counts) {}
+
+  static SampleBuffer make_buffer(const ScreenFrame& frame, const InternalRasterizerOptions& options) {
+    SampleBuffer b;
+    b.width = frame.resolution.x, b.height = frame.resolution.y;
+    b.empty_depth = static_cast<std::int32_t>(frame.resolution.z);
+    const auto [red, green, blue] = to_bytes(options.background);
+    const std::size_t count = b.index(0, b.height);
+    b.samples.assign(count, {V3f(red, green, blue), b.empty_depth});
+    if (options.mode == DrawMode::phong) b.points.resize(count);
+    return b;
+  }
+
+  SampleBuffer buffer;
+  PolygonFiller filler;
+};
+
+InternalRasterizer::InternalRasterizer(InternalRasterizerOptions options) : options_(std::move(options)) {
+  options_.background = clamp01(options_.background);
+  if (options_.mode == DrawMode::line) options_.samples = 1;
+}
+
+InternalRasterizer::~InternalRasterizer() = default;
+
+void InternalRasterizer::begin_frame(const ScreenFrame& frame) {
+  check(frame, options_.samples);
+  frame_ = frame;
+  filled_.reset();
+  picture_ = {};
+  counts_ = {};
+  with_memory(frame_, [&] {
+    if (options_.mode != DrawMode::line) {
+      filled_ = std::make_unique<FilledFrame>(frame_, options_, counts_);
+      return;
+    }
+    picture_.width = frame_.resolution.x, picture_.height = frame_.resolution.y;
+    const std::size_t pixels = picture_.pixel(0, picture_.height);
+    const std::array<std::uint8_t, 3> background = to_bytes(options_.background);
+    picture_.rgb.resize(3 * pixels);
+    for (std::size_t i = 0; i < picture_.rgb.size(); ++i) picture_.rgb[i] = background[i % 3];
+    if (options_.keep_depth) picture_.depth.assign(pixels, static_cast<float>(frame_.resolution.z));
+  });
+  in_frame_ = true;
+}
+
+void InternalRasterizer::polygons(const ScreenPolygonBatch& batch) {
+  if (!in_frame_) broken_contract("polygons outside a frame");
+  for (const ScreenPolygonRecord& polygon : batch.polygons) {
+    if (std::size_t{polygon.first_vertex} + polygon.vertex_count > batch.vertices.size()) {
+      broken_contract("a polygon reaches beyond the vertices of its batch");
+    }
+  }
+  if (wants_shading_attributes() && (batch.normals.size() != batch.vertices.size() ||
+                                     batch.eye_positions.size() != batch.vertices.size())) {
+    broken_contract("normals or eye positions missing");
+  }
+  counts_.polygons += batch.polygons.size();
+  if (options_.mode == DrawMode::line) {
+    draw_lines(batch);
+  } else {
+    with_memory(frame_, [&] { draw_filled(batch); });
+  }
+}
+
+void InternalRasterizer::draw_lines(const ScreenPolygonBatch& batch) {
+  const std::array<std::uint8_t, 3> color = line_color(options_.background);
+  const auto pixel = [&](const ScreenVertex& v) {
+    return PixelPosition{whole_pixel(v.x, frame_, picture_.width), whole_pixel(v.y, frame_, picture_.height)};
+  };
+  for (const ScreenPolygonRecord& polygon : batch.polygons) {
+    const std::span<const ScreenVertex> corners = batch.corners(polygon);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      draw_line(picture_, pixel(corners[i]), pixel(corners[i + 1 < corners.size() ? i + 1 : 0]), color);
+    }
+  }
+}
+
+void InternalRasterizer::draw_filled(const ScreenPolygonBatch& batch) {
+  const bool phong = wants_shading_attributes();
+  for (const ScreenPolygonRecord& record : batch.polygons) {
+    FillPolygon polygon{batch.corners(record), {}, {}, record.material};
+    if (phong) {
+      polygon.normals = {batch.normals.data() + record.first_vertex, record.vertex_count};
+      polygon.eye_positions = {batch.eye_positions.data() + record.first_vertex, record.vertex_count};
+    }
+    filled_->filler.fill(polygon);
+  }
+}
+
+void InternalRasterizer::end_frame() {
+  if (!in_frame_) broken_contract("end of a frame that was not begun");
+  in_frame_ = false;
+  if (!filled_) return;
+  with_memory(frame_, [&] {
+    picture_ = resolve(filled_->buffer, options_.samples, options_.keep_depth, options_.lights_eye, counts_);
+  });
+  filled_.reset();
+}
+
+Framebuffer InternalRasterizer::take() {
+  if (in_frame_ || picture_.rgb.empty()) broken_contract("there is no finished picture to take");
+  return std::exchange(picture_, {});
+}
+
+}  // namespace farop

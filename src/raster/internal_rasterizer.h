@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The rasterizer of the house: screen polygons in, a picture out.
+//
+// Does:      wire-frame, flat, Gouraud and Phong pictures; z-buffer; exact order-independent transparency by
+// the
+//            materials' opacity; super-sampling.
+// Does not:  rows counted from the top (ScreenFrame::y_down); textures; shadows.
+// Coverage:  fill rule `lb`, exact on integers (edge_table.h). Depth: integers, rounded to nearest, strictly
+// nearer
+//            wins; of equal depths the first drawn stays. Colours: 8 bits (of another colour resolution than
+//            256, round(255 c / (CRES - 1)) at the corners), rounded once.
+// Memory:    filled modes 16 bytes a sample, Phong 32; 4 more once a transparent polygon is drawn, and 24 for
+// every
+//            transparent fragment that is visible when drawn; then 3 bytes a pixel of the result (7 with
+//            depth), while the samples are still there. Line mode 3 (7) bytes a pixel.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/color.h"
+#include "core/framebuffer.h"
+#include "core/screen_polygon.h"
+#include "raster/raster_counts.h"
+#include "shading/reflection.h"
+
+namespace farop {
+
+/// line: every edge, hidden ones too. flat and gouraud interpolate the corners' colours (flat: the geometry
+/// stage gives all corners one colour). phong interpolates normals and lights every visible fragment.
+enum class DrawMode { line, flat, gouraud, phong };
+
+struct InternalRasterizerOptions {
+  DrawMode mode = DrawMode::gouraud;
+  int samples =
+      1;  ///< degree A of super-sampling, 1..k_max_samples: A x A samples a pixel; line mode ignores it
+  Rgb background;                      ///< limited to 0..1
+  bool keep_depth = false;             ///< fill Framebuffer::depth
+  std::vector<PointLight> lights_eye;  ///< phong: eye space, the eye at the origin
+};
+
+/// Frames one after another: begin_frame, polygons any number of times, end_frame, take.
+/// The frame given to begin_frame is that of the samples: A * XRES by A * YRES; vertices are in its
+/// coordinates. Vertices outside the frame are safe: polygons are cut to it. Errors: Error(surroundings) when
+/// memory runs out; Error(internal) for a frame or batch that breaks its contract: y_down, limits, a size
+/// that A does not divide, in Phong mode missing normals or eye positions, wrong call order.
+class InternalRasterizer : public ScreenPolygonSink {
+ public:
+  explicit InternalRasterizer(InternalRasterizerOptions options);
+  ~InternalRasterizer() override;
+  InternalRasterizer(const InternalRasterizer&) = delete;
+  InternalRasterizer& operator=(const InternalRasterizer&) = delete;
+
+  bool wants_shading_attributes() const override { return options_.mode == DrawMode::phong; }
+  void begin_frame(const ScreenFrame& frame) override;
+  /// Materials are used until end_frame.
+  void polygons(const ScreenPolygonBatch& batch) override;
+  void end_frame() override;
+
+  /// The finished picture, once per frame. Depth in line mode is ZRES everywhere: lines have none.
+  Framebuffer take();
+  /// Of the current or last frame; in line mode polygons alone are counted.
+  const RasterCounts& counts() const { return counts_; }
+
+ private:
+  struct FilledFrame;
+
+  void draw_lines(const ScreenPolygonBatch& batch);
+  void draw_filled(const ScreenPolygonBatch& batch);
+
+  InternalRasterizerOptions options_;
+  ScreenFrame frame_;
+  bool in_frame_ = false;
+  std::unique_ptr<FilledFrame> filled_;  ///< while a frame of a filled mode is drawn
+  Framebuffer picture_;
+  RasterCounts counts_;
+};
+
+}  // namespace farop

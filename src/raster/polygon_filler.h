@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Draws filled polygons into a SampleBuffer: z-buffer with Gouraud or Phong interpolation.
+//
+// Interpolation is by scan lines: along the two edges that bound a span to the row, then along the span.
+// Every sample is computed from the corners directly, not stepped, so errors do not add up: in exact
+// arithmetic and here the results differ by less than 10^-5 of a unit before rounding, and they never leave
+// the range of the corners. Sources: E. Catmull, "A Subdivision Algorithm for Computer Display of Curved
+// Surfaces", PhD thesis, Utah 1974; H. Gouraud, "Continuous Shading of Curved Surfaces", IEEE Trans.
+// Computers C-20(6), 1971; Bui Tuong Phong, CACM 18(6), 1975.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/color.h"
+#include "core/math.h"
+#include "core/screen_polygon.h"
+#include "raster/edge_table.h"
+#include "raster/raster_counts.h"
+#include "raster/sample_buffer.h"
+#include "shading/reflection.h"
+
+namespace farop {
+
+/// Colour 0..255, not rounded, of a surface point in eye space (eye at the origin); `normal` of any length.
+V3f lit_color(const Material& material, std::span<const PointLight> lights_eye, const V3d& position,
+              const V3d& normal);
+
+/// One polygon and what runs parallel to its corners. `normals` and `eye_positions`: in Phong frames only,
+/// else empty.
+struct FillPolygon {
+  std::span<const ScreenVertex> corners;
+  std::span<const V3f> normals, eye_positions;
+  const Material* material = nullptr;
+};
+
+/// Strictly nearer wins, so of equal depths the first drawn stays. Transparent fragments are kept unless an
+/// opaque one is at least as near already.
+class PolygonFiller {
+ public:
+  /// `buffer`, `counts` and `lights_eye` must outlive the filler. Phong: whether `buffer` has points.
+  PolygonFiller(const ScreenFrame& frame, SampleBuffer& buffer, std::span<const PointLight> lights_eye,
+                RasterCounts& counts);
+
+  void fill(const FillPolygon& polygon);
+
+ private:
+  /// What is interpolated, in double.
+  struct Attributes {
+    double depth = 0;
+    V3d color{0, 0, 0};                      ///< 0..255
+    V3d normal{0, 0, 0}, position{0, 0, 0};  ///< Phong only; Imath leaves vectors unset by default
+  };
+
+  void load_attributes(const FillPolygon& polygon);
+  Attributes at(const EdgePoint& point) const;
+  void fill_span(const Span& span, const Material* material, std::uint32_t material_number);
+
+  SampleBuffer& buffer_;
+  std::span<const PointLight> lights_eye_;
+  RasterCounts& counts_;
+  EdgeTable edge_table_;
+  int color_resolution_;
+  bool phong_;
+  std::vector<Attributes> attributes_;  ///< of the corners
+};
+
+}  // namespace farop
