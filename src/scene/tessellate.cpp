@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scene/tessellate.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -10,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/error.h"
 #include "scene/surface_builder.h"
 
 namespace farop {
@@ -171,6 +174,15 @@ class ResolutionCollector {
   ResolutionsOfSurface resolutions_;
 };
 
+std::uint64_t triangle_count(const Surface& surface, const std::vector<int>& resolutions) {
+  std::uint64_t triangles = 0;
+  for (std::size_t i = 0; i < surface.curved.size(); ++i) {
+    const auto r = static_cast<std::uint64_t>(resolutions[i]);
+    triangles += surface.curved[i].kind == CurvedPrimitive::Kind::sphere ? 12 * r * r : 8 * r;
+  }
+  return triangles;
+}
+
 /// The same surface with every curved primitive replaced, in its place, by triangles (resolution 0: by
 /// nothing).
 Surface tessellated(const Surface& surface, const std::vector<int>& resolutions) {
@@ -280,7 +292,16 @@ int auto_resolution(const Cone& cone, const DetailView& view) {
 }
 
 void tessellate_scene(Scene& scene, const Detail& detail) {
-  for (const auto& [surface, resolutions] : ResolutionCollector(scene, detail).collect())
+  const ResolutionsOfSurface surfaces = ResolutionCollector(scene, detail).collect();
+  std::uint64_t triangles = 0;
+  for (const auto& [surface, resolutions] : surfaces) triangles += triangle_count(*surface, resolutions);
+  if (triangles > k_max_tessellated_triangles) {
+    throw Error(ExitStatus::surroundings,
+                fmt::format("the spheres and cones would become {} triangles, more than {}", triangles,
+                            k_max_tessellated_triangles),
+                "choose fewer with --detail N, or leave them out with --detail 0");
+  }
+  for (const auto& [surface, resolutions] : surfaces)
     *surface = tessellated(*surface, resolutions);
 }
 

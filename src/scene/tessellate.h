@@ -6,6 +6,7 @@
 // R^2 triangles a sphere, 8 R a cone, each corner with its normal, like NFF `pp`.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 
@@ -51,6 +52,9 @@ struct Detail {
 /// radius, D the distance of the eye from the centre or the axis segment, H the rows, t the vertical tangent.
 int auto_resolution(const Sphere& sphere, const DetailView& view);
 int auto_resolution(const Cone& cone, const DetailView& view);
+
+/// Some 10 GB of triangles: a small hostile file of spheres around the eye must not fill the memory.
+constexpr std::uint64_t k_max_tessellated_triangles = 250'000'000;
 
 /// Tessellates in place, keeping the order of primitives and polygons and merging vertices as everywhere.
 /// Local radii and positions are taken to world space for `auto`. A surface that is placed several times

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/error.h"
 #include "scene/tessellate.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cstring>
+#include <bit>
+#include <cmath>
+#include <cstdint>
 #include <map>
 #include <numbers>
 #include <utility>
@@ -31,7 +34,15 @@ V3d plane_normal(const Triangle& t) {
 }
 
 bool same_bits(const Triangle& a, const Triangle& b) {
-  return std::memcmp(&a, &b, sizeof a) == 0;
+  const auto bits = [](const Triangle& triangle) {
+    std::vector<std::uint64_t> all;
+    for (const auto& [position, normal] : triangle)
+      for (int i = 0; i < 3; ++i)
+        all.insert(all.end(),
+                   {std::bit_cast<std::uint64_t>(position[i]), std::bit_cast<std::uint64_t>(normal[i])});
+    return all;
+  };
+  return bits(a) == bits(b);
 }
 
 std::shared_ptr<Surface> shared_surface(SurfaceBuilder& builder) {
@@ -246,6 +257,8 @@ TEST(AutoResolution, IsNeverAboveSixtyFour) {
   // p = 16 (H-1) / 2t = 8 (H-1) at t = 1: 0.785 sqrt(6640) = 63.97, 0.785 sqrt(6648) = 64.005.
   EXPECT_EQ(auto_resolution(Sphere{{0, 0, 0}, 1}, {{0, 0, 0}, 1, 831}), 64);
   EXPECT_EQ(auto_resolution(Sphere{{0, 0, 0}, 1}, {{0, 0, 0}, 1, 832}), 64);
+  EXPECT_EQ(auto_resolution(Sphere{{0, 0, 0}, 1}, {{0, 0, 0}, 1, 807}), 64);  // 0.785 sqrt(6448) = 63.03
+  EXPECT_EQ(auto_resolution(Sphere{{0, 0, 0}, 1}, {{0, 0, 0}, 1, 806}), 63);  // 0.785 sqrt(6440) = 62.996
   EXPECT_EQ(auto_resolution(Sphere{{0, 0, 0}, 1}, {{0, 0, 0}, 1, 801}), 63);  // 0.785 * 80 = 62.8
 }
 
@@ -431,6 +444,21 @@ TEST(TessellatedScene, CountsSkippedPrimitivesOncePerPlacement) {
   Scene scene = instanced_scene(shared_surface(builder), {5, 0, 0});
   tessellate_scene(scene, {.fixed = 0, .view = {}});
   EXPECT_EQ(scene.spheres_skipped, 2u);
+}
+
+TEST(TessellatedScene, RefusesMoreTrianglesThanMemoryHoldsBeforeMakingAny) {
+  SurfaceBuilder builder;
+  for (int i = 0; i < 30; ++i) builder.add(Sphere{V3d(i, 0, 0), 1, false});
+  Scene scene;
+  scene.root.children.push_back(std::make_shared<Object>());
+  scene.root.children[0]->surfaces.push_back(std::make_shared<Surface>(builder.take()));
+  try {
+    tessellate_scene(scene, {k_max_detail, std::nullopt});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), ExitStatus::surroundings);
+    EXPECT_NE(error.hint().find("--detail"), std::string::npos);
+  }
 }
 
 }  // namespace
