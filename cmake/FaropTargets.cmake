@@ -6,6 +6,10 @@ target_compile_features(farop_build_flags INTERFACE cxx_std_20)
 # No contraction: the fast and the plain path of one calculation must round alike on every machine.
 target_compile_options(farop_build_flags INTERFACE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconversion
                                                    -Wno-sign-conversion -Wnon-virtual-dtor -Wold-style-cast)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  # GCC 12 sees overlapping copies in std::string operator+ that are not there (GCC bug 105651).
+  target_compile_options(farop_build_flags INTERFACE -Wno-restrict)
+endif()
 if(FAROP_WARNINGS_AS_ERRORS)
   target_compile_options(farop_build_flags INTERFACE -Werror)
 endif()
@@ -13,6 +17,11 @@ if(FAROP_SANITIZE)
   target_compile_options(farop_build_flags INTERFACE -fsanitize=${FAROP_SANITIZE} -fno-sanitize-recover=all
                                                      -fno-omit-frame-pointer)
   target_link_options(farop_build_flags INTERFACE -fsanitize=${FAROP_SANITIZE})
+endif()
+
+if(FAROP_BUILD_FUZZERS)
+  target_compile_options(farop_build_flags INTERFACE -fsanitize=fuzzer-no-link)
+  target_link_options(farop_build_flags INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
 # farop_add_stage(NAME SOURCES ... [PUBLIC libs] [PRIVATE libs]): one library per room of src/.
@@ -35,4 +44,11 @@ function(farop_add_test name)
   target_compile_definitions(${name} PRIVATE FAROP_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   target_link_libraries(${name} PRIVATE ${ARG_LIBS} GTest::gtest_main farop_build_flags)
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 120 PROPERTIES TIMEOUT 600)
+endfunction()
+
+# farop_add_fuzzer(NAME libs...): one libFuzzer program from NAME.cpp. The libraries are compiled with coverage feedback too.
+function(farop_add_fuzzer name)
+  add_executable(${name} ${name}.cpp)
+  target_link_libraries(${name} PRIVATE ${ARGN} farop_build_flags)
+  target_link_options(${name} PRIVATE -fsanitize=fuzzer)
 endfunction()

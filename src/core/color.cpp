@@ -6,7 +6,8 @@
 namespace farop {
 
 Rgb clamp01(const Rgb& c) {
-  return {std::clamp(c.r, 0.0, 1.0), std::clamp(c.g, 0.0, 1.0), std::clamp(c.b, 0.0, 1.0)};
+  const auto limit = [](double v) { return v > 0 ? std::min(v, 1.0) : 0.0; };
+  return {limit(c.r), limit(c.g), limit(c.b)};
 }
 
 }  // namespace farop

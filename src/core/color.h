@@ -16,7 +16,7 @@ struct Rgb {
   Rgb& operator+=(const Rgb& o) { return *this = *this + o; }
 };
 
-/// Every channel limited to [0,1].
+/// Every channel limited to [0,1]; one that is no number becomes 0.
 Rgb clamp01(const Rgb& c);
 
 }  // namespace farop

@@ -45,6 +45,19 @@ TEST(InternalRasterizer, PutsRowZeroAtTheBottom) {
   EXPECT_EQ(picture.depth[picture.pixel(1, 0)], 7);
 }
 
+TEST(InternalRasterizer, FlatModeTakesTheFirstCornersColourForAllOfAPolygon) {
+  Corners corners = rectangle(0, 0, 6, 6, 100, 200, 0, 0);
+  corners[1].r = corners[2].r = corners[3].r = 10;
+  Drawing drawing;
+  drawing.add(corners);
+  InternalRasterizerOptions options;
+  options.mode = DrawMode::flat;
+  const Framebuffer picture = draw(make_frame(8, 8), drawing, options);
+  for (int y = 0; y < 6; ++y) {
+    for (int x = 0; x < 6; ++x) EXPECT_EQ(red(picture, x, y), 200);
+  }
+}
+
 TEST(InternalRasterizer, ShowsTheStrictlyNearerAndOfEqualDepthsTheFirst) {
   Drawing drawing;
   drawing.add(rectangle(0, 0, 6, 6, 100, 10, 0, 0));

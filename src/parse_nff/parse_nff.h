@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Reads scenes in NFF, the Neutral File Format of E. Haines (document version 3.9, 1996).
+#pragma once
+
+#include <optional>
+
+#include "core/diagnostics.h"
+#include "core/progress.h"
+#include "core/word_reader.h"
+#include "scene/scene.h"
+
+namespace farop {
+
+struct NffOptions {
+  ProgressFunction progress;  ///< called with bytes read so far and bytes in all, once per block of input
+  int warnings_per_kind = 3;  ///< further ones are only counted, in one closing line per kind
+};
+
+/// Reads one NFF file to its end. The scene has one object under the root, named after the file without
+/// folder and extension, with a surface for every `f` that an object follows; world coordinates,
+/// right-handed, nothing moved, split or tessellated. View parameters that the file does not give stay empty.
+/// `inputs` holds one summary.
+///
+/// Text level, dialects that are read or skipped, and all errors: nff.md. The first error ends reading; it is
+/// the last thing reported. Warnings never end it.
+///
+/// reader   at the start of the file; `%` becomes a second comment character (AFF dialect)
+/// returns  nothing after an error was reported to `sink`
+/// throws   Error(ExitStatus::input) from the reader when the file cannot be read
+///
+/// Memory grows with what was read, never with a count that the file merely announces.
+std::optional<Scene> parse_nff(WordReader& reader, DiagnosticSink& sink, const NffOptions& options = {});
+
+}  // namespace farop
