@@ -124,23 +124,4 @@ void OutputFile::commit() {
   temporary_path_.clear();
 }
 
-OutputPath::OutputPath(std::string path) : path_(std::move(path)) {
-  struct stat info {};
-  const bool exists = ::stat(path_.c_str(), &info) == 0;
-  if (exists && S_ISDIR(info.st_mode)) throw_failure(path_, "cannot write", EISDIR);
-  if (exists && ::access(path_.c_str(), W_OK) != 0) throw_failure(path_, "cannot write", errno);
-  int descriptor = -1;
-  temporary_path_ = create_temporary(path_, descriptor);
-  ::close(descriptor);
-}
-
-OutputPath::~OutputPath() {
-  if (!committed_) ::unlink(temporary_path_.c_str());
-}
-
-void OutputPath::commit() {
-  move_into_place(temporary_path_, path_);
-  committed_ = true;
-}
-
 }  // namespace farop

@@ -38,22 +38,4 @@ class OutputFile {
   std::uint64_t size_ = 0;
 };
 
-/// The same promise for writers that insist on opening the file themselves (OpenImageIO): hand them
-/// temporary_path(), then commit(). The temporary name keeps the target's extension.
-class OutputPath {
- public:
-  explicit OutputPath(std::string path);
-  ~OutputPath();
-  OutputPath(const OutputPath&) = delete;
-  OutputPath& operator=(const OutputPath&) = delete;
-
-  const std::string& temporary_path() const { return temporary_path_; }
-  void commit();
-
- private:
-  std::string path_;
-  std::string temporary_path_;
-  bool committed_ = false;
-};
-
 }  // namespace farop
