@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/pipeline.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "geometry/clip.h"
+#include "geometry/triangulate.h"
+#include "scene/plane.h"
+#include "scene/traverse.h"
+
+namespace farop {
+namespace {
+
+/// Corners per batch: long enough that a clock reading per batch costs nothing, short enough to stay in the
+/// L2 cache.
+constexpr std::size_t k_batch_corners = 4096;
+/// Polygons between two calls of the progress function.
+constexpr std::uint64_t k_progress_step = 1u << 14;
+
+double farthest_depth(const Scene& scene, const M44d& world_to_eye) {
+  double farthest = 0;
+  for_each_surface(scene, [&](const Surface& surface, const M44d& local_to_world) {
+    const M44d m = local_to_world * world_to_eye;
+    for (const V3d& p : surface.positions) {
+      farthest = std::max(farthest, p.x * m[0][2] + p.y * m[1][2] + p.z * m[2][2] + m[3][2]);
+    }
+  });
+  return farthest;
+}
+
+/// A surface in its place: the matrices its polygons need.
+struct PlacedSurface {
+  PlacedSurface(const Surface& the_surface, const M44d& local_to_world, const M44d& world_to_eye,
+                const V3d& eye_world)
+      : surface(the_surface), local_to_eye(local_to_world * world_to_eye) {
+    if (local_to_world == M44d()) {
+      eye_local = eye_world;
+      normal_to_eye = world_to_eye;  // orthonormal: its own inverse transpose
+    } else {
+      flattened = local_to_world.determinant() == 0;
+      eye_local = eye_world * local_to_world.inverse();
+      normal_to_eye = local_to_eye.inverse().transposed();
+    }
+  }
+
+  V3d to_eye_direction(const V3d& local) const {
+    V3d out;
+    normal_to_eye.multDirMatrix(local, out);
+    return out.normalized();
+  }
+
+  const Surface& surface;
+  M44d local_to_eye;
+  M44d normal_to_eye;
+  V3d eye_local;
+  bool flattened = false;  ///< the matrix leaves no volume: no side to see
+};
+
+class Stage {
+ public:
+  Stage(const GeometrySetup& setup, const GeometryOptions& options, ScreenPolygonSink& sink,
+        GeometryClocks& clocks)
+      : setup_(setup),
+        options_(options),
+        sink_(sink),
+        clocks_(clocks),
+        mapping_(setup.viewport, setup.tangents, setup.hither, setup.yon),
+        frustum_{setup.tangents.x, setup.tangents.y, setup.hither, setup.yon},
+        attributes_(sink.wants_shading_attributes()) {}
+
+  void surface(const PlacedSurface& placed, const std::function<void()>& tick) {
+    for (const PolygonView polygon : placed.surface.polygons) {
+      this->polygon(placed, polygon);
+      if (++counts.loaded % k_progress_step == 0) tick();
+    }
+  }
+
+  void flush() {
+    if (batch_.polygons.empty()) return;
+    clocks_.geometry.stop();
+    {
+      const TimedSlice slice(clocks_.sink);
+      sink_.polygons(batch_);
+    }
+    clocks_.geometry.start();
+    batch_.clear();
+  }
+
+  PolygonCounts counts;
+
+ private:
+  // The steps, in the paper's order.
+  void polygon(const PlacedSurface& placed, const PolygonView& polygon) {
+    const Surface& surface = placed.surface;
+    const std::optional<V3d> normal = plane_normal(surface.positions, polygon.corners);
+    if (!normal || placed.flattened) {
+      ++counts.degenerate;
+      return;
+    }
+    const V3d& on_plane = surface.positions[polygon.corners.front()];
+    const bool faces_away = normal->dot(on_plane - placed.eye_local) >= 0;
+    if (faces_away && !options_.two_sided) {
+      ++counts.back_facing;
+      return;
+    }
+    const V3d normal_eye = placed.to_eye_direction(*normal);
+    load_eye_vertices(placed, polygon, normal_eye, faces_away);
+    Rgb flat_color;
+    if (options_.flat)
+      flat_color = light(surface.material, ring_.front());  // before clipping may take it away
+    const ClipResult clipped = clip_to_frustum(ring_, frustum_, clip_scratch_);
+    if (clipped == ClipResult::outside) {
+      ++counts.totally_clipped;
+      return;
+    }
+    ++counts.rendered;
+    if (clipped == ClipResult::partly) ++counts.partly_clipped;
+    counts.vertices += ring_.size();
+
+    const std::size_t first = append_vertices(surface.material, flat_color);
+    if (options_.triangles) {
+      append_triangles(first, normal_eye, surface.material, faces_away);
+    } else {
+      append_record(first, ring_.size(), surface.material, faces_away);
+    }
+    if (batch_.vertices.size() >= k_batch_corners) flush();
+  }
+
+  void load_eye_vertices(const PlacedSurface& placed, const PolygonView& polygon, const V3d& normal_eye,
+                         bool faces_away) {
+    const Surface& surface = placed.surface;
+    const std::vector<V3d>* own = polygon.has_given_normals          ? &surface.normals
+                                  : surface.averaged_normals.empty() ? nullptr
+                                                                     : &surface.averaged_normals;
+    ring_.clear();
+    for (std::uint32_t corner = 0; corner < polygon.corners.size(); ++corner) {
+      const std::uint32_t v = polygon.corners[corner];
+      V3d normal = normal_eye;
+      if (own != nullptr) {
+        normal = placed.to_eye_direction((*own)[v]);
+        if (normal == V3d(0, 0, 0)) normal = normal_eye;
+        // A given NFF normal may point to the back of its polygon (SPD nurbtst): it lights the front all the
+        // same.
+        if (polygon.has_given_normals && normal.dot(normal_eye) < 0) normal = -normal;
+      }
+      if (faces_away) normal = -normal;
+      ring_.push_back({surface.positions[v] * placed.local_to_eye, normal, corner});
+    }
+  }
+
+  Rgb light(const Material& material, const EyeVertex& vertex) const {
+    return reflect(material, setup_.lights_eye, vertex.position, vertex.normal, V3d(0, 0, 0));
+  }
+
+  // Lights and projects the clipped ring into the batch; returns the index of its first vertex.
+  std::size_t append_vertices(const Material& material, const Rgb& flat_color) {
+    const std::size_t first = batch_.vertices.size();
+    for (const EyeVertex& vertex : ring_) {
+      const Rgb color = options_.flat ? flat_color : light(material, vertex);
+      batch_.vertices.push_back(mapping_.to_device(vertex.position, color));
+      if (attributes_) {
+        batch_.normals.emplace_back(vertex.normal);
+        batch_.eye_positions.emplace_back(vertex.position);
+      }
+    }
+    return first;
+  }
+
+  void append_record(std::size_t first, std::size_t count, const Material& material, bool faces_away) {
+    batch_.polygons.push_back(
+        {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count), &material, faces_away});
+  }
+
+  // Triangles take their own copies of the polygon's vertices, behind them in the batch; no attribute
+  // changes.
+  void append_triangles(std::size_t first, const V3d& normal_eye, const Material& material, bool faces_away) {
+    const std::size_t corners = ring_.size();
+    if (corners == 3) {
+      append_record(first, 3, material, faces_away);
+      ++counts.triangles;
+      return;
+    }
+    ++counts.split_to_triangles;
+    positions_.clear();
+    for (const EyeVertex& vertex : ring_) positions_.push_back(vertex.position);
+    triangulate(positions_, normal_eye, triangles_, triangulate_scratch_);
+    counts.triangles += triangles_.size();
+    for (const CornerTriangle& triangle : triangles_) {
+      const std::size_t start = batch_.vertices.size();
+      for (const std::uint32_t corner : triangle) {
+        batch_.vertices.push_back(ScreenVertex(batch_.vertices[first + corner]));
+        if (attributes_) {
+          batch_.normals.push_back(V3f(batch_.normals[first + corner]));
+          batch_.eye_positions.push_back(V3f(batch_.eye_positions[first + corner]));
+        }
+      }
+      append_record(start, 3, material, faces_away);
+    }
+  }
+
+  const GeometrySetup& setup_;
+  const GeometryOptions& options_;
+  ScreenPolygonSink& sink_;
+  GeometryClocks& clocks_;
+  DeviceMapping mapping_;
+  Frustum frustum_;
+  bool attributes_;
+
+  ScreenPolygonBatch batch_;
+  std::vector<EyeVertex> ring_;
+  ClipScratch clip_scratch_;
+  std::vector<V3d> positions_;
+  std::vector<CornerTriangle> triangles_;
+  TriangulateScratch triangulate_scratch_;
+};
+
+}  // namespace
+
+GeometrySetup prepare_geometry(const Scene& scene, const Camera& camera, const Viewport& viewport,
+                               const GeometryOptions& options) {
+  GeometrySetup setup;
+  setup.camera = camera;
+  setup.viewport = viewport;
+  setup.tangents = view_tangents(camera, viewport);
+  setup.hither = camera.near_distance();
+  const M44d to_eye = world_to_eye(camera);
+  if (camera.yon) {
+    setup.yon = *camera.yon;
+  } else {
+    setup.yon = farthest_depth(scene, to_eye) * 1.000001;
+    if (!(setup.yon > setup.hither)) setup.yon = 2 * setup.hither;
+  }
+  if (!(setup.yon > setup.hither)) {
+    throw Error(ExitStatus::input, fmt::format("yon {} is not beyond hither {}", setup.yon, setup.hither),
+                "give a larger --yon, a smaller --hither, or --yon auto");
+  }
+  for (const Light& light : scene.lights) {
+    const Rgb white = Rgb{1, 1, 1} * options.light_intensity;
+    setup.lights_eye.push_back({light.position * to_eye, light.color.value_or(white)});
+  }
+  if (scene.lights.empty() && options.light_at_eye) setup.lights_eye.push_back({V3d(0, 0, 0), {1, 1, 1}});
+  return setup;
+}
+
+GeometryReport run_geometry(const Scene& scene, const GeometrySetup& setup, const GeometryOptions& options,
+                            ScreenPolygonSink& sink, GeometryClocks& clocks,
+                            const ProgressFunction& progress) {
+  GeometryReport report;
+  const std::uint64_t total = progress ? totals(scene).polygons : 0;
+  const M44d to_eye = world_to_eye(setup.camera);
+  {
+    const TimedSlice slice(clocks.sink);
+    sink.begin_frame(setup.viewport.frame());
+  }
+  clocks.geometry.start();
+  Stage stage(setup, options, sink, clocks);
+  const auto tick = [&] {
+    if (progress) progress(stage.counts.loaded, total);
+  };
+  const auto run_object = [&](const Object& object, const M44d& parent_to_world) {
+    std::uint64_t expected_at_tips = 0;
+    const std::uint64_t before = stage.counts.degenerate;
+    for_each_surface(object, parent_to_world, [&](const Surface& surface, const M44d& local_to_world) {
+      stage.surface(PlacedSurface(surface, local_to_world, to_eye, setup.camera.from), tick);
+      expected_at_tips += surface.cone_tip_triangles;
+    });
+    return stage.counts.degenerate - before - expected_at_tips;
+  };
+  for (const auto& child : scene.root.children) {
+    report.degenerate_of_input.push_back(run_object(*child, scene.root.to_parent));
+  }
+  stage.flush();
+  clocks.geometry.stop();
+  {
+    const TimedSlice slice(clocks.sink);
+    sink.end_frame();
+  }
+  report.counts = stage.counts;
+  return report;
+}
+
+}  // namespace farop

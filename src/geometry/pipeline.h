@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The geometry stage: scene -> screen polygons. This is the whole stage on one page; every step is a file of
+// its own.
+//
+// Source: the FAROP system (1997), figure 4: per surface polygon normals, back-face removal, vertex normals;
+// per polygon clipping, perspective, reflection model, triangulation, device mapping, hand-over.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/progress.h"
+#include "core/screen_polygon.h"
+#include "core/statistics.h"
+#include "geometry/viewport.h"
+#include "scene/scene.h"
+#include "shading/reflection.h"
+
+namespace farop {
+
+/// What the command line can ask of the stage.
+struct GeometryOptions {
+  bool two_sided = false;      ///< keep polygons that face away, lit with all normals negated
+  bool triangles = false;      ///< hand over triangles only
+  bool flat = false;           ///< the colour of a polygon's first stored vertex for all of it
+  double light_intensity = 1;  ///< of a light without a colour
+  bool light_at_eye = true;    ///< a white light at the eye for a scene without lights
+};
+
+/// The fixed part of a frame: where the eye is and what the frustum is mapped to.
+struct GeometrySetup {
+  Camera camera;
+  Viewport viewport;
+  ViewTangents tangents;
+  double hither = 0;  ///< of clipping and depth mapping, > 0
+  double yon = 0;     ///< > hither, may be +infinity
+  std::vector<PointLight> lights_eye;
+};
+
+/// Completes a frame: near plane, yon (`auto`: farthest vertex times 1.000001, twice hither where that is not
+/// beyond it), lights in eye space. Reads every vertex when yon is `auto`. Throws Error(ExitStatus::input)
+/// when yon is not beyond hither.
+GeometrySetup prepare_geometry(const Scene& scene, const Camera& camera, const Viewport& viewport,
+                               const GeometryOptions& options);
+
+/// Clocks of the two stages that alternate; sliced by batches, never by polygon.
+struct GeometryClocks {
+  StageTimer geometry;
+  StageTimer sink;
+};
+
+struct GeometryReport {
+  PolygonCounts counts;
+  /// Degenerate polygons per child of the root (= per input), those at the tips of tessellated cones left
+  /// out.
+  std::vector<std::uint64_t> degenerate_of_input;
+};
+
+/// Runs the stage over the whole tree, top-down, in order, and hands batches to `sink` (begin_frame ..
+/// end_frame). Memory: one batch, some hundred kilobytes, or the largest polygon.
+GeometryReport run_geometry(const Scene& scene, const GeometrySetup& setup, const GeometryOptions& options,
+                            ScreenPolygonSink& sink, GeometryClocks& clocks,
+                            const ProgressFunction& progress = {});
+
+}  // namespace farop
