@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Install rules: the program, its manual, and the stages as libraries for find_package(farop).
+include(CMakePackageConfigHelpers)
+
+set(stages core shading scene parse_nff spd geometry raster export)
+foreach(stage IN LISTS stages)
+  install(TARGETS farop_${stage} EXPORT farop-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/${stage} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/farop
+          FILES_MATCHING PATTERN "*.h" PATTERN "*_internal.h" EXCLUDE)
+endforeach()
+install(EXPORT farop-targets NAMESPACE farop:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/farop)
+configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/farop-config.cmake.in ${PROJECT_BINARY_DIR}/farop-config.cmake
+                              INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/farop)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/farop-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/farop-config.cmake ${PROJECT_BINARY_DIR}/farop-config-version.cmake
+              ${PROJECT_SOURCE_DIR}/cmake/FaropOpenImageIO.cmake
+        DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/farop)
+install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY spd_scenes/ DESTINATION ${CMAKE_INSTALL_DATADIR}/farop/scenes FILES_MATCHING PATTERN "*.nff")

@@ -158,6 +158,13 @@ void InternalRasterizer::draw_filled(const ScreenPolygonBatch& batch) {
   const bool phong = wants_shading_attributes();
   for (const ScreenPolygonRecord& record : batch.polygons) {
     FillPolygon polygon{batch.corners(record), {}, {}, record.material};
+    if (options_.mode == DrawMode::flat) {
+      flat_corners_.assign(polygon.corners.begin(), polygon.corners.end());
+      for (ScreenVertex& v : flat_corners_) {
+        v.r = flat_corners_.front().r, v.g = flat_corners_.front().g, v.b = flat_corners_.front().b;
+      }
+      polygon.corners = flat_corners_;
+    }
     if (phong) {
       polygon.normals = {batch.normals.data() + record.first_vertex, record.vertex_count};
       polygon.eye_positions = {batch.eye_positions.data() + record.first_vertex, record.vertex_count};

@@ -27,8 +27,8 @@
 
 namespace farop {
 
-/// line: every edge, hidden ones too. flat and gouraud interpolate the corners' colours (flat: the geometry
-/// stage gives all corners one colour). phong interpolates normals and lights every visible fragment.
+/// line: every edge, hidden ones too. flat: the first corner's colour for the whole polygon (the geometry stage gives all
+/// corners one colour; a flat file need not). gouraud interpolates the corners' colours. phong interpolates normals and lights every visible fragment.
 enum class DrawMode { line, flat, gouraud, phong };
 
 struct InternalRasterizerOptions {
@@ -71,6 +71,7 @@ class InternalRasterizer : public ScreenPolygonSink {
 
   InternalRasterizerOptions options_;
   ScreenFrame frame_;
+  std::vector<ScreenVertex> flat_corners_;  ///< scratch: corners that all have the first one's colour
   bool in_frame_ = false;
   std::unique_ptr<FilledFrame> filled_;  ///< while a frame of a filled mode is drawn
   Framebuffer picture_;

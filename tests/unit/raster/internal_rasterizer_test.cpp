@@ -121,14 +121,6 @@ TEST(InternalRasterizer, ConvertsOtherColourResolutionsToEightBits) {
   }
 }
 
-TEST(InternalRasterizer, DrawsFlatAndGouraudAlike) {
-  Corners corners = {vertex(0, 0, 9, 10, 200, 3), vertex(30, 4, 900, 250, 0, 90),
-                     vertex(12, 29, 40, 77, 7, 255)};
-  InternalRasterizerOptions flat;
-  flat.mode = DrawMode::flat;
-  EXPECT_EQ(one(make_frame(32, 32), corners, flat).rgb, one(make_frame(32, 32), corners).rgb);
-}
-
 TEST(InternalRasterizer, AveragesRoundedSamplesAndKeepsTheNearestDepth) {
   Random random(52);
   const Material glass{.transmittance = 0.4};

@@ -165,6 +165,7 @@ TEST(Camera, EyeSpaceHasXRightYUpAndDepthForward) {
 TEST(Camera, NearDistanceIsPositiveEvenWithHitherZero) {
   Camera camera;
   camera.from = V3d(0, 0, 5);
+  camera.at = V3d(0, 0, 0);
   EXPECT_DOUBLE_EQ(camera.near_distance(), 5e-6);
   camera.hither = 2;
   EXPECT_DOUBLE_EQ(camera.near_distance(), 2);

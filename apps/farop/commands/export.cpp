@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <memory>
+
+#include "command_line.h"
+#include "core/output_file.h"
+#include "export/flat_writer.h"
+#include "session.h"
+
+namespace farop::app {
+namespace {
+
+struct ExportOptions {
+  InputOptions input;
+  std::string output;
+  ViewOptions view;
+  SceneOptions scene;
+  std::string mode = "gouraud";
+};
+
+void run(Session& session, const ExportOptions& options) {
+  const std::string output = output_path(options.output, options.input.files, ".scr");
+  load_inputs(session, options.input);
+  const LoadedView view = *finish_loading(session, options.view, options.scene, Viewport{}, 1, true);
+  const GeometryOptions geometry = geometry_options(session, options.scene, options.mode == "flat");
+  prepare_drawing(session, view, geometry, 1);
+  session.report.sink_writes = true;
+  session.console.log("Flat file to be created: '{}'", output);
+  OutputFile file(output);
+  FlatWriter writer(file);
+  draw(session, geometry, writer);
+  file.commit();
+  session.report.outputs.push_back(output);
+  summarize_drawing(session, output);
+}
+
+}  // namespace
+
+void add_export(CommandLine& line) {
+  const auto options = std::make_shared<ExportOptions>();
+  CLI::App& command =
+      line.add_command("export", "scene(s) -> screen-coordinate flat file",
+                       {{"farop export gears.nff -o gears.scr --resolution 512 512 512 128",
+                         "polygons for a rasterizer that lives elsewhere"},
+                        {"farop export gears.nff -o - --triangles", "triangles only, to standard output"}},
+                       [options](Session& session) { run(session, *options); });
+  add_input_options(command, options->input);
+  add_output_option(command, options->output, "flat file; - is standard output [IN.scr]");
+  add_view_options(command, options->view);
+  add_scene_options(command, options->scene);
+  command.add_flag("--two-sided", options->scene.two_sided, "keep polygons that face away")
+      ->group("Geometry");
+  add_light_option(command, options->scene);
+  command.add_option("--mode", options->mode, "flat: one vertex's colour for the whole polygon [gouraud]")
+      ->check(CLI::IsMember({"flat", "gouraud"}))
+      ->type_name("flat|gouraud")
+      ->group("Drawing");
+  line.add_report_options(command);
+}
+
+}  // namespace farop::app

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "session.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "core/error.h"
+#include "core/word_reader.h"
+#include "parse_nff/parse_nff.h"
+#include "scene/merge.h"
+#include "scene/plane.h"
+#include "scene/traverse.h"
+#include "stats.h"
+
+namespace farop::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string lower_suffix(const std::string& file) {
+  std::string suffix = fs::path(file).extension().string();
+  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return suffix;
+}
+
+void check_format(const std::string& file, const InputOptions& options) {
+  if (!options.format.empty() || file == "-" || lower_suffix(file) == ".nff") return;
+  std::error_code ec;
+  if (!fs::exists(file, ec) || fs::is_directory(file, ec)) return;  // the reader says what is wrong with it
+  throw Error(ExitStatus::usage,
+              fmt::format("{}: the suffix does not tell the format, expected .nff", printable(file, 200)),
+              "say --format nff if that is what it is");
+}
+
+void log_scene(Console& console, const Scene& scene) {
+  if (!console.verbose()) return;
+  if (scene.view.background) console.log("NFF background loaded");
+  if (scene.view.from) console.log("NFF view parameters loaded");
+  for (const Light& light : scene.lights) {
+    const Rgb c = light.color.value_or(Rgb{1, 1, 1});
+    const V3d& p = light.position;
+    console.log("NFF light loaded ({:.2f} {:.2f} {:.2f}) ({:.2f} {:.2f} {:.2f})", p.x, p.y, p.z, c.r, c.g,
+                c.b);
+  }
+  for_each_surface(scene, [&](const Surface& s, const M44d&) {
+    const Material& m = s.material;
+    console.log("NFF surface with {} polygons ({:.2f},{:.2f},{:.2f},{:g},{:.2f},{:.2f},{:.2f})",
+                s.polygons.size(), m.ka, m.ks, m.kd, m.shine, m.color.r, m.color.g, m.color.b);
+  });
+}
+
+void log_time(Console& console, const StageTime& t) {
+  console.log("Timer stopped (Elapsed: {:.3f}s, User: {:.3f}s, System: {:.3f}s)", t.elapsed, t.user,
+              t.system);
+}
+
+Scene load_input(Session& session, const std::string& file) {
+  WordReader reader(file);
+  NffOptions options;
+  options.progress = session.console.progress("parsing");
+  session.console.log("NFF scene '{}' will be imported!", reader.name());
+  session.console.log("Parsing NFF file, wait...");
+  std::optional<Scene> scene = parse_nff(reader, session.console, options);
+  session.console.end_progress();
+  if (!scene) throw Error(ExitStatus::input, "");
+  log_scene(session.console, *scene);
+  const InputSummary& in = scene->inputs.front();
+  session.console.log("Imported {} surfaces with {} polygons, {} spheres and {} cones.", in.surfaces,
+                      in.polygons + in.patches, in.spheres, in.cones);
+  session.console.log("NFF parser done");
+  return std::move(*scene);
+}
+
+void override_view(ViewParameters& view, const ViewParameters& options) {
+  const auto take = [](auto& old, const auto& next) {
+    if (next) old = next;
+  };
+  take(view.from, options.from);
+  take(view.at, options.at);
+  take(view.up, options.up);
+  take(view.angle, options.angle);
+  take(view.fit, options.fit);
+  take(view.hither, options.hither);
+  take(view.yon, options.yon);
+  take(view.resolution, options.resolution);
+  take(view.background, options.background);
+}
+
+LoadedView complete_view(Session& session, const Scene& scene, const ViewOptions& options,
+                         const Viewport& defaults) {
+  LoadedView view{complete_camera(scene.view, session.console), defaults};
+  Viewport& viewport = view.viewport;
+  const ViewParameters::Size size = complete_resolution(scene.view, session.console);
+  viewport.resolution.x = size.x;
+  viewport.resolution.y = size.y;
+  if (!options.resolution.empty()) {
+    const RequestedResolution r = parse_resolution(options.resolution);
+    viewport.resolution.z = r.z.value_or(defaults.resolution.z);
+    viewport.resolution.color = r.color.value_or(defaults.resolution.color);
+  }
+  viewport.subpixel_bits = options.subpixel_bits.value_or(defaults.subpixel_bits);
+  const bool internal = defaults.pixel_fit == PixelFit::edges;
+  const bool edges =
+      options.pixel_fit == "edges" || (options.pixel_fit == "auto" && internal && viewport.subpixel_bits > 0);
+  viewport.pixel_fit = edges ? PixelFit::edges : PixelFit::centres;
+  viewport.half_pixel_border = internal && edges && viewport.subpixel_bits > 0;
+  viewport.y_down = options.y_down && !internal;
+  return view;
+}
+
+void average_all_normals(Object& object) {
+  for (const auto& surface : object.surfaces) {
+    if (surface->averaged_normals.empty()) average_normals(*surface);
+  }
+  for (const auto& child : object.children) average_all_normals(*child);
+}
+
+std::string plural(std::uint64_t n, std::string_view noun) {
+  return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s");
+}
+
+}  // namespace
+
+void Session::stop_if_strict_found_errors() const {
+  if (console.errors() > 0) throw Error(ExitStatus::input, "");
+}
+
+void Session::finish(ExitStatus status) {
+  console.end_progress();
+  if (!options.stats_file.empty()) write_stats(*this, status);
+}
+
+void load_inputs(Session& session, const InputOptions& options) {
+  session.console.set_strict(options.strict);
+  if (std::count(options.files.begin(), options.files.end(), "-") > 1) {
+    throw Error(ExitStatus::usage, "standard input (-) is given twice", "it can be read only once");
+  }
+  for (const std::string& file : options.files) {
+    check_format(file, options);
+    std::optional<Scene> next;
+    {
+      const TimedSlice slice(session.clocks.parse);
+      next = load_input(session, file);
+    }
+    const TimedSlice slice(session.clocks.load);
+    merge_into(session.scene, std::move(*next), session.console);
+    session.report.inputs = session.scene.inputs;
+  }
+  session.stop_if_strict_found_errors();
+}
+
+std::optional<LoadedView> finish_loading(Session& session, const ViewOptions& options,
+                                         const SceneOptions& scene_options, const Viewport& defaults,
+                                         int samples, bool needs_camera) {
+  const TimedSlice slice(session.clocks.load);
+  Scene& scene = session.scene;
+  override_view(scene.view, view_parameters(options));
+  if (yon_is_forced_auto(options)) scene.view.yon.reset();
+  std::optional<LoadedView> view;
+  Detail detail{detail_resolution(scene_options), std::nullopt};
+  if (needs_camera || (scene.view.from && scene.view.at && *scene.view.from != *scene.view.at)) {
+    view = complete_view(session, scene, options, defaults);
+    const ViewTangents tangents = view_tangents(view->camera, view->viewport);
+    detail.view = DetailView{view->camera.from, tangents.y, view->viewport.resolution.y * samples};
+  }
+  tessellate_scene(scene, detail);
+  if (scene_options.normals == "shared") {
+    for (const auto& object : scene.root.children) average_all_normals(*object);
+  }
+  session.report.has_scene = true;
+  session.stop_if_strict_found_errors();
+  return view;
+}
+
+GeometryOptions geometry_options(Session& session, const SceneOptions& options, bool flat) {
+  GeometryOptions geometry;
+  geometry.two_sided = options.two_sided;
+  geometry.triangles = options.triangles;
+  geometry.flat = flat;
+  geometry.light_intensity = light_intensity(options, session.scene.lights.size());
+  if (session.scene.lights.empty())
+    session.console.notice("the scene has no light: a white one at the eye is used");
+  return geometry;
+}
+
+void prepare_drawing(Session& session, const LoadedView& view, const GeometryOptions& options, int samples) {
+  const TimedSlice slice(session.clocks.drawing.geometry);
+  Viewport sampled = view.viewport;
+  sampled.resolution.x *= samples;
+  sampled.resolution.y *= samples;
+  session.report.setup = prepare_geometry(session.scene, view.camera, sampled, options);
+  session.report.picture = view.viewport.resolution;
+}
+
+void draw(Session& session, const GeometryOptions& options, ScreenPolygonSink& sink) {
+  Console& console = session.console;
+  const Scene& scene = session.scene;
+  const GeometrySetup& setup = *session.report.setup;
+  const Resolution& r = session.report.picture;
+  console.log("Hither:{:.2f}, Yon:{:.2f}, Resolution(X,Y,Z,Color):{},{},{},{}", setup.hither, setup.yon, r.x,
+              r.y, r.z, r.color);
+  const SceneTotals sums = totals(scene);
+  console.log("Objects loaded: {}\nSurfaces loaded: {}\nPolygons loaded: {}", sums.objects, sums.surfaces,
+              sums.polygons);
+  console.log("Creating render data, wait...\nTimer started");
+  session.report.geometry =
+      run_geometry(scene, setup, options, sink, session.clocks.drawing, console.progress("drawing"));
+  console.end_progress();
+  log_time(console, session.clocks.drawing.geometry.total());
+  const GeometryReport& done = *session.report.geometry;
+  for (std::size_t i = 0; i < done.degenerate_of_input.size() && i < scene.inputs.size(); ++i) {
+    if (done.degenerate_of_input[i] == 0) continue;
+    Diagnostic d;
+    d.severity = Severity::warning;
+    d.where.file = scene.inputs[i].file;
+    d.message = fmt::format("{} without area, left out", plural(done.degenerate_of_input[i], "polygon"));
+    console.report(std::move(d));
+  }
+  session.stop_if_strict_found_errors();
+}
+
+std::string output_path(const std::string& output, const std::vector<std::string>& inputs,
+                        const std::string& suffix) {
+  std::string path = output;
+  if (path.empty()) {
+    if (inputs.front() == "-") {
+      throw Error(ExitStatus::usage, "standard input has no name to derive the output's from",
+                  "say where to write: -o OUT");
+    }
+    path = fs::path(inputs.front()).filename().replace_extension(suffix).string();
+  }
+  for (const std::string& input : inputs) {
+    std::error_code ec;
+    if (input == "-" || path == "-" || !fs::is_regular_file(path, ec)) continue;
+    if (fs::equivalent(input, path, ec)) {
+      throw Error(ExitStatus::usage, fmt::format("{}: the output is one of the inputs", printable(path, 200)),
+                  "write to another file with -o");
+    }
+  }
+  return path;
+}
+
+void summarize_drawing(Session& session, const std::string& output) {
+  Console& console = session.console;
+  const PolygonCounts& c = session.report.geometry->counts;
+  const RunClocks& t = session.clocks;
+  log_time(console, session.report.sink_writes ? t.write.total() : t.drawing.sink.total());
+  console.log("Successful end");
+  console.log("Polygons backfacing: {}\nPolygons degenerate: {}\nPolygons totally clipped: {}", c.back_facing,
+              c.degenerate, c.totally_clipped);
+  console.log("Polygons splited to triangles: {}\nPolygons rendered: {}", c.split_to_triangles, c.rendered);
+  std::string triangles =
+      session.report.geometry->counts.triangles > 0 ? fmt::format(", as {} triangles", c.triangles) : "";
+  console.summary(
+      "{} loaded: {} back-facing, {} totally clipped, {} degenerate, {} rendered ({} clipped in part{})",
+      plural(c.loaded, "polygon"), c.back_facing, c.totally_clipped, c.degenerate, c.rendered,
+      c.partly_clipped, triangles);
+  const char* sink_name = session.report.sink_writes ? "write" : "rasterize";
+  const double sink_seconds = t.drawing.sink.total().elapsed;
+  console.summary("parse {:.3f} s, load {:.3f} s, geometry {:.3f} s, {} {:.3f} s{}", t.parse.total().elapsed,
+                  t.load.total().elapsed, t.drawing.geometry.total().elapsed, sink_name, sink_seconds,
+                  t.write.ran() ? fmt::format(", write {:.3f} s", t.write.total().elapsed) : "");
+  if (!output.empty()) {
+    const Resolution& r = session.report.picture;
+    console.summary("{}: {} x {}", output == "-" ? "standard output" : output, r.x, r.y);
+  }
+}
+
+}  // namespace farop::app

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stats.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/output_file.h"
+#include "scene/bounds.h"
+#include "scene/traverse.h"
+#include "session.h"
+#include "version.h"
+
+namespace farop::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const V3d& v) {
+  return {v.x, v.y, v.z};
+}
+Json to_json(const Rgb& c) {
+  return {c.r, c.g, c.b};
+}
+Json number_or_inf(double v) {
+  return std::isinf(v) ? Json("inf") : Json(v);
+}
+
+const char* name_of(Fit fit) {
+  switch (fit) {
+    case Fit::vertical:
+      return "vertical";
+    case Fit::horizontal:
+      return "horizontal";
+    case Fit::smaller:
+      return "smaller";
+    case Fit::both:
+      break;
+  }
+  return "both";
+}
+
+Json inputs_json(const RunReport& report) {
+  Json inputs = Json::array();
+  for (const InputSummary& in : report.inputs) {
+    inputs.push_back({{"file", printable(in.file, 4096)},
+                      {"format", in.format},
+                      {"bytes", in.bytes},
+                      {"surfaces", in.surfaces},
+                      {"polygons", in.polygons},
+                      {"patches", in.patches},
+                      {"spheres", in.spheres},
+                      {"cones", in.cones},
+                      {"lights", in.lights}});
+  }
+  return inputs;
+}
+
+Json scene_json(const Scene& scene) {
+  const SceneTotals sums = totals(scene);
+  Json json{{"objects", sums.objects},
+            {"surfaces", sums.surfaces},
+            {"vertices", sums.vertices},
+            {"lights", scene.lights.size()},
+            {"spheres_skipped", scene.spheres_skipped},
+            {"cones_skipped", scene.cones_skipped}};
+  if (const auto box = world_bounds(scene)) json["bounds"] = {to_json(box->low), to_json(box->high)};
+  json["background"] = to_json(scene.view.background.value_or(Rgb{}));
+  json["memory_bytes"] = sums.memory_bytes;
+  return json;
+}
+
+Json view_json(const GeometrySetup& setup, const Resolution& r) {
+  const Camera& camera = setup.camera;
+  const Viewport& viewport = setup.viewport;
+  return {{"from", to_json(camera.from)},
+          {"at", to_json(camera.at)},
+          {"up", to_json(camera.up)},
+          {"angle", camera.angle_degrees},
+          {"fit", name_of(camera.fit)},
+          {"hither", setup.hither},
+          {"yon", number_or_inf(setup.yon)},
+          {"resolution", {r.x, r.y, r.z, r.color}},
+          {"pixel_fit", viewport.pixel_fit == PixelFit::edges ? "edges" : "centres"},
+          {"subpixel_bits", viewport.subpixel_bits},
+          {"y_down", viewport.y_down}};
+}
+
+Json polygons_json(const PolygonCounts& c) {
+  return {{"loaded", c.loaded},
+          {"back_facing", c.back_facing},
+          {"degenerate", c.degenerate},
+          {"totally_clipped", c.totally_clipped},
+          {"rendered", c.rendered},
+          {"partly_clipped", c.partly_clipped},
+          {"split_to_triangles", c.split_to_triangles},
+          {"triangles", c.triangles}};
+}
+
+void add_timer(Json& timers, const char* name, const StageTimer& timer) {
+  if (!timer.ran()) return;
+  const StageTime& t = timer.total();
+  timers[name] = {{"elapsed", t.elapsed}, {"user", t.user}, {"system", t.system}};
+}
+
+}  // namespace
+
+void write_stats(const Session& session, ExitStatus status) {
+  const RunReport& report = session.report;
+  Json json{{"schema", "farop.stats/1"},
+            {"version", k_version},
+            {"command", report.command},
+            {"status", static_cast<int>(status)},
+            {"warnings", session.console.warnings()},
+            {"inputs", inputs_json(report)}};
+  if (report.has_scene) json["scene"] = scene_json(session.scene);
+  if (report.setup) json["view"] = view_json(*report.setup, report.picture);
+  if (report.geometry) {
+    json["polygons"] = polygons_json(report.geometry->counts);
+  } else if (report.polygons_loaded) {
+    json["polygons"] = {{"loaded", *report.polygons_loaded}};
+  }
+  if (report.raster) {
+    json["raster"] = {{"rasterizer", report.raster->rasterizer},
+                      {"mode", report.raster->mode},
+                      {"samples", report.raster->samples}};
+  }
+  Json timers = Json::object();
+  add_timer(timers, "parse", session.clocks.parse);
+  add_timer(timers, "load", session.clocks.load);
+  add_timer(timers, "geometry", session.clocks.drawing.geometry);
+  add_timer(timers, report.sink_writes ? "write" : "rasterize", session.clocks.drawing.sink);
+  add_timer(timers, "write", session.clocks.write);
+  add_timer(timers, "total", session.clocks.total);
+  json["timers"] = timers;
+  json["memory"] = {{"peak_bytes", peak_memory_bytes()}};
+  json["outputs"] = report.outputs;
+
+  OutputFile file(session.options.stats_file);
+  file.write(json.dump(2) + "\n");
+  file.commit();
+}
+
+}  // namespace farop::app
