@@ -114,7 +114,8 @@ int CommandLine::report_parse_error(const CLI::ParseError& error,
       chosen.empty() ? "farop --help" : fmt::format("farop {} --help", command.get_name());
   std::string message = error.what();
   std::string hint = fmt::format("see {}", page);
-  const std::vector<std::string> unknown = app_.remaining(true);  // sub-commands hand up what they do not know
+  const std::vector<std::string> unknown =
+      app_.remaining(true);  // sub-commands hand up what they do not know
   const bool bad_command = chosen.empty() && !arguments.empty() && !arguments.front().starts_with("-");
   if (bad_command) {
     std::vector<std::string> names;

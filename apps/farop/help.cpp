@@ -65,7 +65,8 @@ std::string usage_line(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
     if (!option->nonpositional()) {
       const bool many = option->get_items_expected_max() > 1;
-      const std::string name = value_name(*option) + (many && value_name(*option).find(' ') == std::string::npos ? "..." : "");
+      const std::string name =
+          value_name(*option) + (many && value_name(*option).find(' ') == std::string::npos ? "..." : "");
       line += option->get_required() ? " " + name : " [" + name + "]";
     }
   }

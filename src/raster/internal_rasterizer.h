@@ -27,8 +27,9 @@
 
 namespace farop {
 
-/// line: every edge, hidden ones too. flat: the first corner's colour for the whole polygon (the geometry stage gives all
-/// corners one colour; a flat file need not). gouraud interpolates the corners' colours. phong interpolates normals and lights every visible fragment.
+/// line: every edge, hidden ones too. flat: the first corner's colour for the whole polygon (the geometry
+/// stage gives all corners one colour; a flat file need not). gouraud interpolates the corners' colours.
+/// phong interpolates normals and lights every visible fragment.
 enum class DrawMode { line, flat, gouraud, phong };
 
 struct InternalRasterizerOptions {

@@ -301,8 +301,7 @@ void tessellate_scene(Scene& scene, const Detail& detail) {
                             k_max_tessellated_triangles),
                 "choose fewer with --detail N, or leave them out with --detail 0");
   }
-  for (const auto& [surface, resolutions] : surfaces)
-    *surface = tessellated(*surface, resolutions);
+  for (const auto& [surface, resolutions] : surfaces) *surface = tessellated(*surface, resolutions);
 }
 
 }  // namespace farop

@@ -2,9 +2,8 @@
 // Every command as a user runs it: what it writes, what it says, and that its paths agree with each other.
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <regex>
 #include <sstream>
 
@@ -23,12 +22,14 @@ Outcome must(const TemporaryFolder& folder, const std::string& command) {
 
 TEST(Help, OfEveryCommandFitsAScreenAndGroupsItsOptions) {
   const TemporaryFolder folder;
-  for (const std::string command : {"", "render", "export", "raster", "convert", "spd", "info", "compare", "completion"}) {
+  for (const std::string command :
+       {"", "render", "export", "raster", "convert", "spd", "info", "compare", "completion"}) {
     const Outcome run = must(folder, "farop " + command + " --help");
     EXPECT_TRUE(run.err.empty());
     EXPECT_LE(std::count(run.out.begin(), run.out.end(), '\n'), 60) << command;
     std::istringstream lines(run.out);
-    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 110u) << command << ": " << line;
+    for (std::string line; std::getline(lines, line);)
+      EXPECT_LE(line.size(), 110u) << command << ": " << line;
     EXPECT_NE(run.out.find(command.empty() ? "First steps" : "Examples"), std::string::npos) << command;
   }
 }
@@ -36,9 +37,11 @@ TEST(Help, OfEveryCommandFitsAScreenAndGroupsItsOptions) {
 TEST(Help, ExamplesOfEveryCommandWork) {
   const TemporaryFolder folder;
   must(folder, "farop spd gears --size 1 -o gears.nff; farop spd teapot --size 2 -o pot.nff");
-  must(folder, "farop export gears.nff -o gears.scr; farop render gears.nff -o mine.ppm; cp mine.ppm theirs.ppm");
+  must(folder,
+       "farop export gears.nff -o gears.scr; farop render gears.nff -o mine.ppm; cp mine.ppm theirs.ppm");
   int examples = 0;
-  for (const std::string command : {"render", "export", "raster", "convert", "spd", "info", "compare", "completion"}) {
+  for (const std::string command :
+       {"render", "export", "raster", "convert", "spd", "info", "compare", "completion"}) {
     const std::string help = must(folder, "farop " + command + " --help").out;
     std::istringstream lines(help.substr(help.find("\nExamples\n") + 10));
     for (std::string line; std::getline(lines, line);) {
@@ -88,7 +91,8 @@ TEST(Completion, ZshAndFishScriptsParse) {
 
 TEST(Version, IsPrinted) {
   const TemporaryFolder folder;
-  EXPECT_TRUE(std::regex_match(must(folder, "farop --version").out, std::regex("farop [0-9]+\\.[0-9]+\\.[0-9]+\n")));
+  EXPECT_TRUE(
+      std::regex_match(must(folder, "farop --version").out, std::regex("farop [0-9]+\\.[0-9]+\\.[0-9]+\n")));
 }
 
 TEST(Spd, ListsSixteenScenes) {
@@ -121,7 +125,8 @@ TEST(Render, EqualsThePictureOfTheFlatFile) {
       const std::string flat = mode == "flat" ? " --mode flat" : "";
       must(folder, "farop export s.nff -o s.scr --resolution 300 200 4096 256" + flat);
       must(folder, "farop raster s.scr -o a.ppm --background 0.078 0.361 0.753 --mode " + mode);
-      must(folder, "farop render s.nff -o b.ppm --subpixel-bits 0 --resolution 300 200 4096 256 --mode " + mode);
+      must(folder,
+           "farop render s.nff -o b.ppm --subpixel-bits 0 --resolution 300 200 4096 256 --mode " + mode);
       EXPECT_EQ(read_file(folder / "a.ppm"), read_file(folder / "b.ppm")) << scene << " " << mode;
     }
   }
@@ -129,7 +134,9 @@ TEST(Render, EqualsThePictureOfTheFlatFile) {
 
 TEST(Render, AFlatFileWithRowsFromTheTopGivesTheSamePicture) {
   const TemporaryFolder folder;
-  must(folder, "farop spd tetra --size 3 -o s.nff; farop export s.nff -o up.scr; farop export s.nff -o down.scr --y-down");
+  must(folder,
+       "farop spd tetra --size 3 -o s.nff; farop export s.nff -o up.scr; farop export s.nff -o down.scr "
+       "--y-down");
   must(folder, "farop raster up.scr -o up.ppm; farop raster down.scr -o down.ppm --y-down");
   EXPECT_NE(read_file(folder / "up.scr"), read_file(folder / "down.scr"));
   EXPECT_EQ(read_file(folder / "up.ppm"), read_file(folder / "down.ppm"));
@@ -140,7 +147,8 @@ TEST(Render, SamplesAreMeansOfTheLargerPicture) {
   must(folder, "farop spd balls --size 1 -o s.nff");
   for (const int samples : {2, 3, 4}) {
     const std::string large = std::to_string(60 * samples) + "x" + std::to_string(40 * samples);
-    must(folder, "farop render s.nff -o a.ppm --detail 4 --resolution 60x40 --samples " + std::to_string(samples));
+    must(folder,
+         "farop render s.nff -o a.ppm --detail 4 --resolution 60x40 --samples " + std::to_string(samples));
     must(folder, "farop render s.nff -o b.ppm --detail 4 --resolution " + large);
     const std::string a = read_file(folder / "a.ppm"), b = read_file(folder / "b.ppm");
     const std::size_t head_a = a.find("255\n") + 4, head_b = b.find("255\n") + 4;
@@ -155,7 +163,8 @@ TEST(Render, SamplesAreMeansOfTheLargerPicture) {
             }
           }
           const int n = samples * samples;
-          const int got = static_cast<unsigned char>(a[head_a + static_cast<std::size_t>((y * 60 + x) * 3 + c)]);
+          const int got =
+              static_cast<unsigned char>(a[head_a + static_cast<std::size_t>((y * 60 + x) * 3 + c)]);
           ASSERT_EQ(got, (2 * sum + n) / (2 * n)) << samples << " samples, pixel " << x << " " << y;
         }
       }
@@ -165,13 +174,16 @@ TEST(Render, SamplesAreMeansOfTheLargerPicture) {
 
 TEST(Render, YDownDoesNotChangeItsPictures) {
   const TemporaryFolder folder;
-  must(folder, "farop spd gears --size 1 -o s.nff; farop render s.nff -o a.ppm; farop render s.nff -o b.ppm --y-down");
+  must(
+      folder,
+      "farop spd gears --size 1 -o s.nff; farop render s.nff -o a.ppm; farop render s.nff -o b.ppm --y-down");
   EXPECT_EQ(read_file(folder / "a.ppm"), read_file(folder / "b.ppm"));
 }
 
 TEST(Render, NamesItsOutputAfterTheInput) {
   const TemporaryFolder folder;
-  const Outcome run = must(folder, "farop spd tetra --size 2 -o t.nff; mkdir sub; cp t.nff sub/u.nff; farop render sub/u.nff");
+  const Outcome run = must(
+      folder, "farop spd tetra --size 2 -o t.nff; mkdir sub; cp t.nff sub/u.nff; farop render sub/u.nff");
   EXPECT_TRUE(std::filesystem::exists(folder / "u.ppm"));
   EXPECT_NE(run.err.find("u.ppm"), std::string::npos) << run.err;
 }
@@ -180,7 +192,8 @@ TEST(Render, OptionsOverrideTheScene) {
   const TemporaryFolder folder;
   must(folder, "farop spd tetra --size 2 -o t.nff");
   must(folder,
-       "farop render t.nff -o a.ppm --from 3,0,0 --at 0 0 0 --up 0 0 1 --angle 60 --hither 0.5 --yon 9 --fit smaller "
+       "farop render t.nff -o a.ppm --from 3,0,0 --at 0 0 0 --up 0 0 1 --angle 60 --hither 0.5 --yon 9 --fit "
+       "smaller "
        "--background 1 0 0 --resolution 40x30 --stats s.json");
   const Json v = Json::parse(read_file(folder / "s.json")).at("view");
   EXPECT_EQ(v.at("from"), Json({3, 0, 0}));
@@ -203,13 +216,16 @@ TEST(Render, OptionsComeFromTheEnvironmentAndFromAFileToo) {
   const TemporaryFolder folder;
   must(folder, "farop spd tetra --size 2 -o t.nff; FAROP_RESOLUTION=31x21 farop render t.nff -o a.ppm");
   EXPECT_EQ(read_file(folder / "a.ppm").substr(0, 9), "P6\n31 21\n");
-  must(folder, "printf '[render]\\nresolution=\"33x22\"\\n' > c.toml; farop --config c.toml render t.nff -o a.ppm");
+  must(folder,
+       "printf '[render]\\nresolution=\"33x22\"\\n' > c.toml; farop --config c.toml render t.nff -o a.ppm");
   EXPECT_EQ(read_file(folder / "a.ppm").substr(0, 9), "P6\n33 22\n");
 }
 
 TEST(Render, DepthKeepsTheIntegerZAndZresWhereNothingIs) {
   const TemporaryFolder folder;
-  must(folder, "farop spd tetra --size 2 -o t.nff; farop render t.nff -o a.ppm --depth z.tif --resolution 32 32 1000 256");
+  must(folder,
+       "farop spd tetra --size 2 -o t.nff; farop render t.nff -o a.ppm --depth z.tif --resolution 32 32 1000 "
+       "256");
   if (shell(folder, "command -v oiiotool").status != 0) GTEST_SKIP() << "oiiotool is not installed";
   const std::string text = must(folder, "oiiotool --stats z.tif").out;
   EXPECT_NE(text.find("Stats Max: 1000.0"), std::string::npos) << text;
@@ -247,11 +263,13 @@ TEST(Verbose, SpeaksTheWordsOf1997) {
   const std::string log = must(folder, "farop spd gears --size 1 | farop render - -o a.ppm --verbose").err;
   std::size_t at = 0;
   for (const std::string word :
-       {"Parsing NFF file", "NFF background loaded", "NFF view parameters loaded", "NFF light loaded (2.00 4.00 4.00) (1.00 1.00 1.00)",
+       {"Parsing NFF file", "NFF background loaded", "NFF view parameters loaded",
+        "NFF light loaded (2.00 4.00 4.00) (1.00 1.00 1.00)",
         "NFF surface with 1 polygons (0.30,0.60,0.30,3.0827,1.00,0.85,0.70)", "NFF surface with 146 polygons",
-        "Imported 2 surfaces with 147 polygons, 0 spheres and 0 cones.", "NFF parser done", "Hither:1.00, Yon:",
-        "Objects loaded: 1", "Surfaces loaded: 2", "Polygons loaded: 147", "Polygons backfacing: 84", "Polygons totally clipped: 0",
-        "Polygons splited to triangles: 0", "Polygons rendered: 63"}) {
+        "Imported 2 surfaces with 147 polygons, 0 spheres and 0 cones.", "NFF parser done",
+        "Hither:1.00, Yon:", "Objects loaded: 1", "Surfaces loaded: 2", "Polygons loaded: 147",
+        "Polygons backfacing: 84", "Polygons totally clipped: 0", "Polygons splited to triangles: 0",
+        "Polygons rendered: 63"}) {
     const std::size_t found = log.find(word, at);
     EXPECT_NE(found, std::string::npos) << word << "\n" << log;
     if (found != std::string::npos) at = found;
@@ -267,7 +285,8 @@ TEST(Quiet, SaysNothingWhenAllIsWell) {
 TEST(Convert, RoundTripsAndKeepsCounts) {
   const TemporaryFolder folder;
   must(folder, "farop spd sample -o s.nff");
-  must(folder, "farop convert s.nff -o a.nff --detail 3; farop convert a.nff -o b.nff; farop convert b.nff -o c.nff");
+  must(folder,
+       "farop convert s.nff -o a.nff --detail 3; farop convert a.nff -o b.nff; farop convert b.nff -o c.nff");
   EXPECT_EQ(read_file(folder / "b.nff"), read_file(folder / "c.nff"));
   must(folder, "farop export s.nff -o s.scr --detail 3; farop export a.nff -o a.scr");
   EXPECT_EQ(read_file(folder / "s.scr"), read_file(folder / "a.scr"));
@@ -275,7 +294,8 @@ TEST(Convert, RoundTripsAndKeepsCounts) {
 
 TEST(Convert, TrianglesOnly) {
   const TemporaryFolder folder;
-  must(folder, "farop spd gears --size 1 | farop convert - -o t.nff --triangles; farop info t.nff --stats s.json");
+  must(folder,
+       "farop spd gears --size 1 | farop convert - -o t.nff --triangles; farop info t.nff --stats s.json");
   // Two 144-gons, 144 quadrilaterals, the ground.
   EXPECT_EQ(Json::parse(read_file(folder / "s.json")).at("polygons").at("loaded"), 2 * 142 + 144 * 2 + 2);
   const std::string text = read_file(folder / "t.nff");
@@ -286,15 +306,18 @@ TEST(Convert, TrianglesOnly) {
 TEST(Info, ShowsCountsViewLightsAndTheTree) {
   const TemporaryFolder folder;
   const std::string out = must(folder, "farop spd mount --size 2 | farop info - --verbose").out;
-  for (const std::string word : {"polygons      32", "from        -1.6 1.6 1.7", "angle       45 degrees", "light         -100 -100 100",
-                                 "4 spheres", "bounds", "background  0.078 0.361 0.753"}) {
+  for (const std::string word :
+       {"polygons      32", "from        -1.6 1.6 1.7", "angle       45 degrees",
+        "light         -100 -100 100", "4 spheres", "bounds", "background  0.078 0.361 0.753"}) {
     EXPECT_NE(out.find(word), std::string::npos) << word << "\n" << out;
   }
 }
 
 TEST(Compare, PassesForEqualPicturesAndFailsWithNumbersForDifferentOnes) {
   const TemporaryFolder folder;
-  must(folder, "farop spd tetra --size 2 -o t.nff; farop render t.nff -o a.ppm; farop render t.nff -o b.ppm --mode flat");
+  must(folder,
+       "farop spd tetra --size 2 -o t.nff; farop render t.nff -o a.ppm; farop render t.nff -o b.ppm --mode "
+       "flat");
   EXPECT_NE(must(folder, "farop compare a.ppm a.ppm").out.find("PASS"), std::string::npos);
   const Outcome run = shell(folder, "farop compare a.ppm b.ppm -o d.png");
   EXPECT_EQ(run.status, 1);
@@ -306,7 +329,9 @@ TEST(Compare, PassesForEqualPicturesAndFailsWithNumbersForDifferentOnes) {
 
 TEST(Progress, AppearsOnlyOnATerminal) {
   const TemporaryFolder folder;
-  EXPECT_EQ(must(folder, "farop spd tetra --size 9 | farop render - -o a.ppm --rasterizer internal").err.find('\r'), std::string::npos);
+  EXPECT_EQ(
+      must(folder, "farop spd tetra --size 9 | farop render - -o a.ppm --rasterizer internal").err.find('\r'),
+      std::string::npos);
 }
 
 }  // namespace

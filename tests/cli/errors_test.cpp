@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Wrong command lines, wrong inputs, hostile surroundings: one clear message, the right exit status, nothing broken.
+// Wrong command lines, wrong inputs, hostile surroundings: one clear message, the right exit status, nothing
+// broken.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +15,8 @@ namespace fs = std::filesystem;
 
 struct Case {
   std::string name;
-  std::string command;  ///< run in a folder that holds t.nff, t.scr and old.ppm, old.scr, old.nff with the text "old"
+  std::string
+      command;  ///< run in a folder that holds t.nff, t.scr and old.ppm, old.scr, old.nff with the text "old"
   int status;
   std::string message;  ///< must be part of standard error
 };
@@ -62,8 +64,11 @@ const Case k_cases[] = {
     {"NoView", "printf 'p 3\\n0 0 0\\n1 0 0\\n0 1 0\\n' > v.nff; farop export v.nff", 1, "no view entity"},
     {"Truncated", "printf 'v\\nfrom 1 2 3\\nat 0 0\\n' > v.nff; farop render v.nff", 1, "v.nff:3:1: error:"},
     {"NotANumber", "sed 's/^from.*/from nan 0 0/' t.nff > n.nff; farop render n.nff", 1, "n.nff:3:"},
-    {"BinaryJunk", "head -c 10000 /dev/urandom | tr '\\n#' 'xx' > j.nff; printf '\\0' >> j.nff; farop render j.nff", 1, "j.nff:1:"},
-    {"DegenerateView", "farop render t.nff --at 1.02285 -3.17715 -2.17451 --from 1.02285 -3.17715 -2.17451", 1, "degenerate view"},
+    {"BinaryJunk",
+     "head -c 10000 /dev/urandom | tr '\\n#' 'xx' > j.nff; printf '\\0' >> j.nff; farop render j.nff", 1,
+     "j.nff:1:"},
+    {"DegenerateView", "farop render t.nff --at 1.02285 -3.17715 -2.17451 --from 1.02285 -3.17715 -2.17451",
+     1, "degenerate view"},
     {"YonBeforeHither", "farop render t.nff --hither 3 --yon 2", 1, "is not beyond hither"},
     {"StrictWarning", "grep -v angle t.nff > w.nff; farop render w.nff --strict", 1, "error:"},
     {"FlatFileWrong", "sed '4s/.*/3 7/' t.scr > w.scr; farop raster w.scr", 1, "w.scr:4:"},
@@ -78,8 +83,12 @@ const Case k_cases[] = {
     {"FullDiskInfo", "farop info t.nff > /dev/full", 4, "No space left"},
     {"FullDiskStats", "farop info t.nff --stats /dev/full > /dev/null", 4, "No space left"},
     {"FullDiskHelp", "farop --help > /dev/full", 4, "cannot write"},
-    {"ClosedPipe", "set +o pipefail; (farop spd tetra --size 9; echo status $? >&2) | head -c 10 > /dev/null; exit 4", 4, "Broken pipe"},
-    {"ClosedPipeStatus", "set +o pipefail; (farop spd tetra --size 9; echo status $? >&2) | head -c 10 > /dev/null; exit 4", 4, "status 4"},
+    {"ClosedPipe",
+     "set +o pipefail; (farop spd tetra --size 9; echo status $? >&2) | head -c 10 > /dev/null; exit 4", 4,
+     "Broken pipe"},
+    {"ClosedPipeStatus",
+     "set +o pipefail; (farop spd tetra --size 9; echo status $? >&2) | head -c 10 > /dev/null; exit 4", 4,
+     "status 4"},
     {"OutputIsAFolder", "mkdir d.ppm; farop render t.nff -o d.ppm", 4, "d.ppm: cannot write: Is a directory"},
     {"OutputFolderMissing", "farop export t.nff -o none/a.scr", 4, "none/a.scr"},
     {"FileSizeLimit", "ulimit -f 1; farop render t.nff -o big.ppm --resolution 500x500", 4, "File too large"},
@@ -90,25 +99,33 @@ class Refuses : public testing::TestWithParam<Case> {};
 
 TEST_P(Refuses, WithOneMessageAndTheRightStatus) {
   const TemporaryFolder folder;
-  shell(folder, "farop spd tetra --size 2 -o t.nff -q; farop export t.nff -o t.scr -q; printf old | tee old.ppm old.scr > old.nff");
+  shell(folder,
+        "farop spd tetra --size 2 -o t.nff -q; farop export t.nff -o t.scr -q; printf old | tee old.ppm "
+        "old.scr > old.nff");
   const Outcome run = shell(folder, GetParam().command);
   EXPECT_EQ(run.status, GetParam().status) << run.err;
   EXPECT_NE(run.err.find(GetParam().message), std::string::npos) << run.err;
   std::size_t errors = 0;
-  for (std::size_t at = run.err.find("error:"); at != std::string::npos; at = run.err.find("error:", at + 1)) ++errors;
+  for (std::size_t at = run.err.find("error:"); at != std::string::npos; at = run.err.find("error:", at + 1))
+    ++errors;
   EXPECT_EQ(errors, 1u) << run.err;
 }
 
-INSTANTIATE_TEST_SUITE_P(CommandLine, Refuses, testing::ValuesIn(k_cases), [](const auto& test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(CommandLine, Refuses, testing::ValuesIn(k_cases),
+                         [](const auto& test) { return test.param.name; });
 
 TEST(FailedRuns, LeaveOldOutputsAndNoTemporaryFiles) {
   const TemporaryFolder folder;
-  shell(folder, "farop spd tetra --size 4 -o t.nff -q; farop export t.nff -o t.scr -q; head -c 3000 t.nff > cut.nff; head -c 3000 t.scr > cut.scr");
+  shell(folder,
+        "farop spd tetra --size 4 -o t.nff -q; farop export t.nff -o t.scr -q; head -c 3000 t.nff > cut.nff; "
+        "head -c 3000 t.scr > cut.scr");
   shell(folder, "for s in ppm png exr tif scr nff json; do printf old > old.$s; done");
   for (const std::string command :
-       {"farop render cut.nff -o old.ppm", "farop render cut.nff -o old.png", "farop export cut.nff -o old.scr",
-        "farop convert cut.nff -o old.nff", "farop raster cut.scr -o old.ppm", "farop raster cut.scr -o old.exr",
-        "ulimit -f 2; farop render t.nff -o old.ppm --resolution 300x300", "ulimit -f 2; farop render t.nff -o old.tif --resolution 300x300",
+       {"farop render cut.nff -o old.ppm", "farop render cut.nff -o old.png",
+        "farop export cut.nff -o old.scr", "farop convert cut.nff -o old.nff",
+        "farop raster cut.scr -o old.ppm", "farop raster cut.scr -o old.exr",
+        "ulimit -f 2; farop render t.nff -o old.ppm --resolution 300x300",
+        "ulimit -f 2; farop render t.nff -o old.tif --resolution 300x300",
         "ulimit -f 2; farop export t.nff -o old.scr", "ulimit -f 2; farop convert t.nff -o old.nff",
         "ulimit -f 2; farop spd tetra --size 6 -o old.nff"}) {
     EXPECT_NE(shell(folder, command).status, 0) << command;
@@ -128,19 +145,22 @@ TEST(FailedRuns, StillWriteTheirStatistics) {
 
 TEST(Outputs, GoThroughSymbolicLinksAndKeepPermissions) {
   const TemporaryFolder folder;
-  const Outcome run = shell(folder,
-                            "farop spd tetra --size 2 -o t.nff; touch real.ppm; chmod 640 real.ppm; ln -s real.ppm link.ppm; "
-                            "farop render t.nff -o link.ppm; test -L link.ppm && stat -c %a real.ppm; head -c 2 real.ppm");
+  const Outcome run =
+      shell(folder,
+            "farop spd tetra --size 2 -o t.nff; touch real.ppm; chmod 640 real.ppm; ln -s real.ppm link.ppm; "
+            "farop render t.nff -o link.ppm; test -L link.ppm && stat -c %a real.ppm; head -c 2 real.ppm");
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(run.out, "640\nP6");
 }
 
 TEST(Outputs, WorkIntoPipesAndDevices) {
   const TemporaryFolder folder;
-  const Outcome run = shell(folder,
-                            "farop spd tetra --size 2 -o t.nff; farop export t.nff -o a.scr; farop export t.nff -o - | cmp - a.scr && "
-                            "mkfifo f && (cat f > b.scr & farop export t.nff -o f && wait) && cmp a.scr b.scr && "
-                            "farop export t.nff -o /dev/null && farop raster - -o - < a.scr > p.ppm && head -c 2 p.ppm");
+  const Outcome run =
+      shell(folder,
+            "farop spd tetra --size 2 -o t.nff; farop export t.nff -o a.scr; farop export t.nff -o - | cmp - "
+            "a.scr && "
+            "mkfifo f && (cat f > b.scr & farop export t.nff -o f && wait) && cmp a.scr b.scr && "
+            "farop export t.nff -o /dev/null && farop raster - -o - < a.scr > p.ppm && head -c 2 p.ppm");
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(run.out, "P6");
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Pictures that were looked at once and must stay as they are: tests/golden/CASE/{cmd,out.png}.
 //
-// Metric: at most 0.02 % of the pixels may differ by more than one step of 8 bits (0.004), none by more than 0.25. Another
-// C library may round a sine or a power in its last bit, which can move a corner by 1/256 pixel; everything else is exact.
+// Metric: at most 0.02 % of the pixels may differ by more than one step of 8 bits (0.004), none by more than
+// 0.25. Another C library may round a sine or a power in its last bit, which can move a corner by 1/256
+// pixel; everything else is exact.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,8 +32,9 @@ TEST_P(Golden, PictureIsAsCommitted) {
   const TemporaryFolder folder;
   const Outcome drawn = shell(folder, read_file(golden / "cmd"));
   ASSERT_EQ(drawn.status, 0) << drawn.err;
-  const Outcome compared = shell(folder, "farop compare '" + (golden / "out.png").string() +
-                                             "' out.png -o diff.png --fail 0.004 --failpercent 0.02 --hardfail 0.25");
+  const Outcome compared =
+      shell(folder, "farop compare '" + (golden / "out.png").string() +
+                        "' out.png -o diff.png --fail 0.004 --failpercent 0.02 --hardfail 0.25");
   EXPECT_EQ(compared.status, 0) << compared.out << compared.err;
   if (compared.status != 0) {
     const fs::path kept = fs::temp_directory_path() / ("farop-golden-" + GetParam());

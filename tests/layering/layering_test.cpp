@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Includes point one way: parse -> scene -> geometry -> screen polygons -> raster | export; siblings do not know each
-// other, and each third-party package has one room.
+// Includes point one way: parse -> scene -> geometry -> screen polygons -> raster | export; siblings do not
+// know each other, and each third-party package has one room.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -29,8 +29,10 @@ const std::map<std::string, Rooms> k_may_include = {
 };
 
 /// Third-party headers by their first folder -> the only places that may include them.
-const std::map<std::string, Rooms> k_guests = {
-    {"CGAL", {"src/geometry"}}, {"OpenImageIO", {"src/export"}}, {"CLI", {"apps/farop"}}, {"nlohmann", {"apps/farop"}}};
+const std::map<std::string, Rooms> k_guests = {{"CGAL", {"src/geometry"}},
+                                               {"OpenImageIO", {"src/export"}},
+                                               {"CLI", {"apps/farop"}},
+                                               {"nlohmann", {"apps/farop"}}};
 
 template <class Visit>
 void for_each_include(const fs::path& folder, const Visit& visit) {

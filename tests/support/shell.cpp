@@ -28,11 +28,13 @@ Outcome shell(const TemporaryFolder& folder, const std::string& command) {
   const TemporaryFolder streams;
   const fs::path script = streams / "script", out = streams / "out", err = streams / "err";
   // A sanitizer report must fail a test, whatever status the test expects.
-  write_file(script, "set -o pipefail\nunset ${!FAROP_@}\nexport ASAN_OPTIONS=exitcode=99 UBSAN_OPTIONS=exitcode=99\nexport PATH='" FAROP_PROGRAM_FOLDER
-                     "':$PATH\n" +
-                         command + "\n");
-  const std::string line = "cd '" + folder.path().string() + "' && timeout -k 5 120 bash '" + script.string() + "' > '" +
-                           out.string() + "' 2> '" + err.string() + "' < /dev/null";
+  write_file(script,
+             "set -o pipefail\nunset ${!FAROP_@}\nexport ASAN_OPTIONS=exitcode=99 "
+             "UBSAN_OPTIONS=exitcode=99\nexport PATH='" FAROP_PROGRAM_FOLDER "':$PATH\n" +
+                 command + "\n");
+  const std::string line = "cd '" + folder.path().string() + "' && timeout -k 5 120 bash '" +
+                           script.string() + "' > '" + out.string() + "' 2> '" + err.string() +
+                           "' < /dev/null";
   const int status = std::system(line.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read_file(out), read_file(err)};
 }

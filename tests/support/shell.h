@@ -27,8 +27,8 @@ struct Outcome {
   std::string out, err;
 };
 
-/// Runs `command` with bash (pipefail set) in `folder`, with the program under test as `farop` in the PATH, no standard
-/// input unless the command redirects it, no FAROP_ variables, and a time limit of 120 seconds.
+/// Runs `command` with bash (pipefail set) in `folder`, with the program under test as `farop` in the PATH,
+/// no standard input unless the command redirects it, no FAROP_ variables, and a time limit of 120 seconds.
 Outcome shell(const TemporaryFolder& folder, const std::string& command);
 
 std::string read_file(const std::filesystem::path& path);
