@@ -12,8 +12,8 @@ enum class Plane : std::uint8_t { hither, yon, left, right, bottom, top };
 constexpr std::array k_planes{Plane::hither, Plane::yon,    Plane::left,
                               Plane::right,  Plane::bottom, Plane::top};
 
-/// The coordinate that a plane limits, and the limit at a point. A point is inside while coordinate <= limit
-/// (>= for hither, left and bottom). Comparing instead of subtracting makes "on the plane" exact.
+/// The coordinate that a plane limits, and the limit at a point. A point is inside while coordinate <=
+/// limit (>= for hither, left and bottom). Comparing instead of subtracting makes "on the plane" exact.
 struct Reach {
   double coordinate;
   double limit;

@@ -2,13 +2,11 @@
 // Sutherland-Hodgman clipping of planar polygons against the viewing frustum.
 //
 // Does:      clip one polygon, convex or concave, in eye space (x right, y up, z along the view direction);
-// interpolate
-//            every attribute linearly; give an edge that two polygons share the same new vertex bit for bit,
-//            whichever way each of them runs (seams stay closed); leave every vertex exactly inside the
-//            planes.
-// Does not:  split a concave result into several loops (coincident bridge edges along the planes are kept, as
-// the
-//            method is known to do); remove collinear vertices; cull; project.
+//            interpolate every attribute linearly; give an edge that two polygons share the same new vertex
+//            bit for bit, whichever way each of them runs (seams stay closed); leave every vertex inside all
+//            planes to the last bit.
+// Does not:  split a concave result into several loops (coincident bridge edges along the planes are kept,
+//            as the method is known to do); remove collinear vertices; cull; project.
 // Source:    Sutherland & Hodgman, "Reentrant Polygon Clipping", CACM 17(1), 1974.
 #pragma once
 

@@ -35,11 +35,11 @@ bool is_between(const V2d& a, const V2d& c, const V2d& b) {
   return (a[axis] < c[axis] && c[axis] < b[axis]) || (b[axis] < c[axis] && c[axis] < a[axis]);
 }
 
-/// How much to forgive in further attempts, as a fraction of the largest coordinate. Polygons come from exact
-/// input first of all, and are taken at their word. What was weakly simple before rounding (a concave polygon
-/// that is cut by two planes, say: its bridge edges lie upon each other only roughly) may be left without
-/// ears; then points that nearly coincide are taken for one, and points near a line for points on it, which
-/// restores what the rounding broke.
+/// How much to forgive in further attempts, as a fraction of the largest coordinate. Polygons come from
+/// exact input first of all, and are taken at their word. What was weakly simple before rounding (a concave
+/// polygon that is cut by two planes, say: its bridge edges lie upon each other only roughly) may be left
+/// without ears; then points that nearly coincide are taken for one, and points near a line for points on
+/// it, which restores what the rounding broke.
 constexpr std::array k_forgiveness{0x1p-42, 0x1p-32, 0x1p-22};
 
 /// The vertices that are not cut yet: projected to a plane, counter-clockwise, linked in a ring.
@@ -58,8 +58,8 @@ class Ring {
   /// The lowest vertex left.
   Index first() const { return first_; }
 
-  /// orientation(), exact unless something is to be forgiven: then 0 too when the three are collinear but for
-  /// that.
+  /// orientation(), exact unless something is to be forgiven: then 0 too when the three are collinear but
+  /// for that.
   int side(const V2d& a, const V2d& b, const V2d& c) const;
   double tolerance() const { return tolerance_; }
   bool is_forgiving() const { return tolerance_ > 0; }
@@ -190,8 +190,8 @@ enum class Contact : std::uint8_t {
   is_inside  ///< strictly inside
 };
 
-/// Whether the ring at v, which lies on the edge from one vertex of the ear to the next one, is on the ear's
-/// side.
+/// Whether the ring at v, which lies on the edge from one vertex of the ear to the next one, is on the
+/// ear's side.
 bool on_left_of_edge(const Ring& ring, Index edge_start, Index edge_end, Index v) {
   const V2d& from = ring.point(edge_start);
   const V2d& to = ring.point(edge_end);
@@ -224,8 +224,8 @@ bool on_left_of_tip(const Ring& ring, Index tip, Index v) {
   return false;
 }
 
-/// What v, not one of the ear's own vertices, does to the ear at `tip`, which turns left. Only vertices that
-/// do not turn left need to be asked: whatever enters an ear turns right at its deepest point, or runs
+/// What v, not one of the ear's own vertices, does to the ear at `tip`, which turns left. Only vertices
+/// that do not turn left need to be asked: whatever enters an ear turns right at its deepest point, or runs
 /// straight.
 Contact contact(const Ring& ring, Index tip, Index v) {
   const V2d& p = ring.point(ring.previous(tip));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Any ring of lattice points, most of which cross themselves: n - 2 triangles over its corners, whose signed
-// areas add up to the ring's. Two bytes make a corner, so that corners and edges often coincide.
+// Any ring of lattice points, most of which cross themselves: n - 2 triangles over its corners, whose
+// signed areas add up to the ring's. Two bytes make a corner, so that corners and edges often coincide.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

@@ -37,9 +37,9 @@ Point random_point(Random& random, std::int64_t size) {
 
 using Corners = std::array<Point, 3>;
 
-/// Whether the open inside of a counter-clockwise triangle is free of a convex set, given by its corners: one
-/// of the triangle's sides has them all beyond it, or one of the set's sides has all of the triangle beyond
-/// it.
+/// Whether the open inside of a counter-clockwise triangle is free of a convex set, given by its corners:
+/// one of the triangle's sides has them all beyond it, or one of the set's sides has all of the triangle
+/// beyond it.
 bool inside_is_free_of(const Corners& t, const std::vector<Point>& convex) {
   const auto separates = [](const Point& a, const Point& b, const auto& corners) {
     return std::ranges::all_of(corners, [&](const Point& p) { return turn(a, b, p) <= 0; });
@@ -131,9 +131,9 @@ class DiscGrower {
     return low < project(b) && high > 0;
   }
 
-  /// The ring may pass a point several times. A new segment there has to start between the right neighbours:
-  /// going counter-clockwise from it, the first edge met must be the one that leaves the root, and no other
-  /// beside it.
+  /// The ring may pass a point several times. A new segment there has to start between the right
+  /// neighbours: going counter-clockwise from it, the first edge met must be the one that leaves the root,
+  /// and no other beside it.
   bool belongs_to_visit(std::size_t root, const Point& tip) const {
     const Point& at = ring_[root];
     const auto comes_first = [&](const Point& p, const Point& q) {  // counter-clockwise from the new segment

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Random polygons on the integer lattice, and exact checks of their triangulations. Coordinates below 2^20 in
-// size keep every product of the checks in 64 bits.
+// Random polygons on the integer lattice, and exact checks of their triangulations. Coordinates below 2^20
+// in size keep every product of the checks in 64 bits.
 #pragma once
 
 #include <array>
@@ -34,14 +34,14 @@ std::int64_t doubled_area(const Polygon& ring);
 /// corners. Corners with straight angles occur.
 Polygon random_simple(Random& random, int corners, std::int64_t size);
 
-/// Weakly simple, counter-clockwise, grown triangle by triangle so that on a small lattice it touches itself
-/// at corners and along edges and closes around holes; with antennas some parts hang together by lines
-/// without width only.
+/// Weakly simple, counter-clockwise, grown triangle by triangle so that on a small lattice it touches
+/// itself at corners and along edges and closes around holes; with antennas some parts hang together by
+/// lines without width only.
 Polygon random_weakly_simple(Random& random, int corners, std::int64_t size, bool antennas);
 
-/// Sutherland-Hodgman clipping of a polygon against one axis-parallel half-plane: keeps coordinate `axis` (0
-/// x, 1 y) at least, or at most, `limit`. The caller sees to it that all intersections are lattice points;
-/// asserts otherwise.
+/// Sutherland-Hodgman clipping of a polygon against one axis-parallel half-plane: keeps coordinate `axis`
+/// (0 x, 1 y) at least, or at most, `limit`. The caller sees to it that all intersections are lattice
+/// points; asserts otherwise.
 Polygon clip(const Polygon& polygon, int axis, std::int64_t limit, bool keep_above);
 /// A polygon scaled so that clip() at any lattice line of it meets lattice points, if it lies in [0, 13)^2.
 constexpr std::int64_t k_clip_scale = 27720;  // least common multiple of 1..12

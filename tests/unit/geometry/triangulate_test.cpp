@@ -264,8 +264,8 @@ TEST(Triangulate, CutsPolygonsAtTheEndsOfTheNumberRange) {
   }
 }
 
-/// Corners in space above a lattice polygon, at random heights: the tests see the same polygon, but the ears
-/// have other sizes and are cut in another order.
+/// Corners in space above a lattice polygon, at random heights: the tests see the same polygon, but the
+/// ears have other sizes and are cut in another order.
 std::vector<V3d> with_random_heights(lattice::Random& random, const Polygon& polygon) {
   std::vector<V3d> corners = to_space(polygon);
   for (V3d& p : corners) p.z = 1e5 * static_cast<double>(below(random, 50));
