@@ -51,17 +51,22 @@ struct Prepared {
   GeometrySetup setup;
 };
 
-Prepared prepare(const SceneName& name, bool triangles) {
+enum class For { picture, flat_file };
+
+Prepared prepare(const SceneName& name, bool triangles, For use) {
   Prepared p;
   p.scene = parse(text_of(name));
   tessellate_scene(p.scene, {3, std::nullopt});
   p.options.triangles = triangles;
   DiagnosticList messages;
   Viewport viewport;
-  viewport.resolution = {1024, 1024, std::int64_t{1} << 24, 256};
-  viewport.pixel_fit = PixelFit::edges;
-  viewport.subpixel_bits = 8;
-  viewport.half_pixel_border = true;
+  viewport.resolution = {1024, 1024, 65536, 256};
+  if (use == For::picture) {
+    viewport.resolution.z = std::int64_t{1} << 24;
+    viewport.pixel_fit = PixelFit::edges;
+    viewport.subpixel_bits = 8;
+    viewport.half_pixel_border = true;
+  }
   p.setup = prepare_geometry(p.scene, complete_camera(p.scene.view, messages), viewport, p.options);
   return p;
 }
@@ -104,7 +109,7 @@ void parsing(benchmark::State& state, const SceneName& name) {
 }
 
 void geometry(benchmark::State& state, const SceneName& name) {
-  const Prepared p = prepare(name, false);
+  const Prepared p = prepare(name, false, For::picture);
   Nothing nothing;
   std::uint64_t corners = 0, polygons = 0;
   for (auto _ : state) {
@@ -118,7 +123,7 @@ void geometry(benchmark::State& state, const SceneName& name) {
 }
 
 void flat_writing(benchmark::State& state, const SceneName& name) {
-  const Prepared p = prepare(name, false);
+  const Prepared p = prepare(name, false, For::flat_file);
   Tape tape;
   GeometryClocks clocks;
   run_geometry(p.scene, p.setup, p.options, tape, clocks);
@@ -133,7 +138,7 @@ void flat_writing(benchmark::State& state, const SceneName& name) {
 }
 
 void rasterizing(benchmark::State& state, const SceneName& name) {
-  const Prepared p = prepare(name, true);
+  const Prepared p = prepare(name, true, For::picture);
   Tape tape;
   GeometryClocks clocks;
   run_geometry(p.scene, p.setup, p.options, tape, clocks);
