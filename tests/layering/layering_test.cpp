@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <regex>
 #include <set>
 #include <string>
 
@@ -34,15 +33,22 @@ const std::map<std::string, Rooms> k_guests = {{"CGAL", {"src/geometry"}},
                                                {"CLI", {"apps/farop"}},
                                                {"nlohmann", {"apps/farop"}}};
 
+/// First folder of an #include line, "" for anything else.
+std::string included_folder(const std::string& line) {
+  const std::size_t open = line.find_first_of("<\"");
+  const std::size_t slash = line.find('/');
+  if (!line.starts_with("#include") || open == std::string::npos || slash == std::string::npos) return "";
+  return line.substr(open + 1, slash - open - 1);
+}
+
 template <class Visit>
 void for_each_include(const fs::path& folder, const Visit& visit) {
-  const std::regex include(R"(^\s*#\s*include\s*[<"]([^/>"]+)/)");
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
     std::ifstream file(entry.path());
-    std::smatch match;
     for (std::string line; std::getline(file, line);) {
-      if (std::regex_search(line, match, include)) visit(entry.path(), match[1].str());
+      const std::string other = included_folder(line);
+      if (!other.empty()) visit(entry.path(), other);
     }
   }
 }
