@@ -8,12 +8,15 @@ foreach(stage IN LISTS stages)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/${stage} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/farop
           FILES_MATCHING PATTERN "*.h" PATTERN "*_internal.h" EXCLUDE)
 endforeach()
+install(TARGETS farop_rasterizer_abi EXPORT farop-targets)
+install(DIRECTORY plugins/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT farop-targets NAMESPACE farop:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/farop)
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/farop-config.cmake.in ${PROJECT_BINARY_DIR}/farop-config.cmake
                               INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/farop)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/farop-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/farop-config.cmake ${PROJECT_BINARY_DIR}/farop-config-version.cmake
-              ${PROJECT_SOURCE_DIR}/cmake/FaropOpenImageIO.cmake
+              ${PROJECT_SOURCE_DIR}/cmake/FaropOpenImageIO.cmake ${PROJECT_SOURCE_DIR}/cmake/FaropPlugin.cmake
+              ${PROJECT_SOURCE_DIR}/plugins/exports.map
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/farop)
 install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY spd_scenes/ DESTINATION ${CMAKE_INSTALL_DATADIR}/farop/scenes FILES_MATCHING PATTERN "*.nff")
