@@ -43,7 +43,8 @@ void log_scene(Console& console, const Scene& scene) {
     console.log("NFF light loaded ({:.2f} {:.2f} {:.2f}) ({:.2f} {:.2f} {:.2f})", p.x, p.y, p.z, c.r, c.g,
                 c.b);
   }
-  for_each_surface(scene, [&](const Surface& s, const M44d&) {
+  for_each_surface(scene, [&](const SurfacePlacement& placement) {
+    const Surface& s = placement.surface;
     const Material& m = s.material;
     console.log("NFF surface with {} polygons ({:.2f},{:.2f},{:.2f},{:g},{:.2f},{:.2f},{:.2f})",
                 s.polygons.size(), m.ka, m.ks, m.kd, m.shine, m.color.r, m.color.g, m.color.b);

@@ -49,20 +49,29 @@ struct ScreenPolygonRecord {
   std::uint32_t vertex_count = 0;
   const Material* material = nullptr;  ///< lives as long as the frame; nullptr: opaque, colours as given
   bool back_facing = false;  ///< faced away from the eye (two-sided drawing, or a clockwise flat-file record)
+  std::uint32_t surface_id = 0;  ///< surfaces of the scene count from 1 in tree order; 0: from a flat file
+  std::uint32_t object_id = 0;   ///< placed objects count from 1 in tree order; 0: from a flat file
 };
 
-/// Polygons in drawing order. `normals` and `eye_positions` are empty unless the sink wants them; then they
-/// run parallel to `vertices`.
+/// ScreenPolygonBatch::vertex_ids of a corner that clipping made.
+constexpr std::uint32_t k_no_vertex_id = 0xFFFFFFFFu;
+
+/// Polygons in drawing order. `normals`, `eye_positions` and `vertex_ids` are empty unless the sink wants
+/// them (and there is a scene to take them from); then they run parallel to `vertices`.
 struct ScreenPolygonBatch {
   std::vector<ScreenPolygonRecord> polygons;
   std::vector<ScreenVertex> vertices;
   std::vector<V3f> normals;        ///< unit length, eye space, turned towards the lit side
   std::vector<V3f> eye_positions;  ///< eye space: x right, y up, z along the view direction; scene units
+  /// Index of the corner's vertex in its surface: equal object, surface and vertex id = the same corner.
+  std::vector<std::uint32_t> vertex_ids;
 
   std::span<const ScreenVertex> corners(const ScreenPolygonRecord& polygon) const {
     return {vertices.data() + polygon.first_vertex, polygon.vertex_count};
   }
-  void clear() { polygons.clear(), vertices.clear(), normals.clear(), eye_positions.clear(); }
+  void clear() {
+    polygons.clear(), vertices.clear(), normals.clear(), eye_positions.clear(), vertex_ids.clear();
+  }
 };
 
 /// Everything about a frame that is known before its first polygon.
@@ -74,6 +83,17 @@ struct ScreenFrame {
   /// bits), so that under the fill rule `lb` the last column and the top row are drawn. Only the internal
   /// rasterizer gets such frames.
   bool half_pixel_border = false;
+  /// No polygon of the frame has more corners; 0 where the sink did not ask.
+  std::uint32_t max_vertices = 0;
+};
+
+/// What a sink needs beside device coordinates and colours. The rest stays empty and costs nothing.
+struct PolygonWants {
+  bool triangles = false;      ///< nothing but triangles
+  bool normals = false;        ///< ScreenPolygonBatch::normals
+  bool eye_positions = false;  ///< ScreenPolygonBatch::eye_positions
+  bool vertex_ids = false;     ///< ScreenPolygonBatch::vertex_ids
+  bool max_vertices = false;   ///< ScreenFrame::max_vertices; takes a look at every polygon of the scene
 };
 
 /// Where screen polygons go: a rasterizer, the flat file, a counter, a test recorder.
@@ -81,8 +101,7 @@ struct ScreenFrame {
 class ScreenPolygonSink {
  public:
   virtual ~ScreenPolygonSink() = default;
-  /// Whether batches must carry normals and eye positions.
-  virtual bool wants_shading_attributes() const { return false; }
+  virtual PolygonWants wants() const { return {}; }
   virtual void begin_frame(const ScreenFrame& frame) = 0;
   virtual void polygons(const ScreenPolygonBatch& batch) = 0;
   virtual void end_frame() = 0;

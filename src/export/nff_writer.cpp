@@ -55,8 +55,8 @@ class NffWriter {
         line("l", p.x, p.y, p.z);
       }
     }
-    for_each_surface(scene, [&](const Surface& surface, const M44d& local_to_world) {
-      write_surface(surface, local_to_world);
+    for_each_surface(scene, [&](const SurfacePlacement& placement) {
+      write_surface(placement.surface, placement.local_to_world);
     });
     if (!text_.empty()) write_(text_);
   }

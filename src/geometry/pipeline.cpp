@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/error.h"
 #include "geometry/clip.h"
@@ -23,20 +24,37 @@ constexpr std::uint64_t k_progress_step = 1u << 14;
 
 double farthest_depth(const Scene& scene, const M44d& world_to_eye) {
   double farthest = 0;
-  for_each_surface(scene, [&](const Surface& surface, const M44d& local_to_world) {
-    const M44d m = local_to_world * world_to_eye;
-    for (const V3d& p : surface.positions) {
+  for_each_surface(scene, [&](const SurfacePlacement& placement) {
+    const M44d m = placement.local_to_world * world_to_eye;
+    for (const V3d& p : placement.surface.positions) {
       farthest = std::max(farthest, p.x * m[0][2] + p.y * m[1][2] + p.z * m[2][2] + m[3][2]);
     }
   });
   return farthest;
 }
 
+/// No polygon has more corners on the screen. A plane leaves a convex polygon one corner more at most; of a
+/// concave one it may replace every second corner by two.
+std::uint32_t largest_corner_count(const Scene& scene) {
+  std::size_t most = 0;
+  for_each_surface(scene, [&](const SurfacePlacement& placement) {
+    for (const PolygonView polygon : placement.surface.polygons)
+      most = std::max(most, polygon.corners.size());
+  });
+  constexpr int planes = 6;
+  if (most <= 3) return 3 + planes;
+  for (int i = 0; i < planes; ++i) most += most / 2;
+  return static_cast<std::uint32_t>(std::min<std::size_t>(most, std::numeric_limits<std::int32_t>::max()));
+}
+
 /// A surface in its place: the matrices its polygons need.
 struct PlacedSurface {
-  PlacedSurface(const Surface& the_surface, const M44d& local_to_world, const M44d& world_to_eye,
-                const V3d& eye_world)
-      : surface(the_surface), local_to_eye(local_to_world * world_to_eye) {
+  PlacedSurface(const SurfacePlacement& placement, const M44d& world_to_eye, const V3d& eye_world)
+      : surface(placement.surface),
+        surface_id(placement.surface_id),
+        object_id(placement.object_id),
+        local_to_eye(placement.local_to_world * world_to_eye) {
+    const M44d& local_to_world = placement.local_to_world;
     if (local_to_world == M44d()) {
       eye_local = eye_world;
       normal_to_eye = world_to_eye;  // orthonormal: its own inverse transpose
@@ -54,6 +72,7 @@ struct PlacedSurface {
   }
 
   const Surface& surface;
+  std::uint32_t surface_id, object_id;
   M44d local_to_eye;
   M44d normal_to_eye;
   V3d eye_local;
@@ -70,7 +89,8 @@ class Stage {
         clocks_(clocks),
         mapping_(setup.viewport, setup.tangents, setup.hither, setup.yon),
         frustum_{setup.tangents.x, setup.tangents.y, setup.hither, setup.yon},
-        attributes_(sink.wants_shading_attributes()) {}
+        wants_(sink.wants()),
+        triangles_only_(options.triangles || wants_.triangles) {}
 
   void surface(const PlacedSurface& placed, const std::function<void()>& tick) {
     for (const PolygonView polygon : placed.surface.polygons) {
@@ -121,11 +141,11 @@ class Stage {
     if (clipped == ClipResult::partly) ++counts.partly_clipped;
     counts.vertices += ring_.size();
 
-    const std::size_t first = append_vertices(surface.material, flat_color);
-    if (options_.triangles) {
-      append_triangles(first, normal_eye, surface.material, faces_away);
+    const std::size_t first = append_vertices(surface.material, polygon, flat_color);
+    if (triangles_only_) {
+      append_triangles(first, normal_eye, placed, faces_away);
     } else {
-      append_record(first, ring_.size(), surface.material, faces_away);
+      append_record(first, ring_.size(), placed, faces_away);
     }
     if (batch_.vertices.size() >= k_batch_corners) flush();
   }
@@ -157,30 +177,33 @@ class Stage {
   }
 
   // Lights and projects the clipped ring into the batch; returns the index of its first vertex.
-  std::size_t append_vertices(const Material& material, const Rgb& flat_color) {
+  std::size_t append_vertices(const Material& material, const PolygonView& polygon, const Rgb& flat_color) {
     const std::size_t first = batch_.vertices.size();
     for (const EyeVertex& vertex : ring_) {
       const Rgb color = options_.flat ? flat_color : light(material, vertex);
       batch_.vertices.push_back(mapping_.to_device(vertex.position, color));
-      if (attributes_) {
-        batch_.normals.emplace_back(vertex.normal);
-        batch_.eye_positions.emplace_back(vertex.position);
+      if (wants_.normals) batch_.normals.emplace_back(vertex.normal);
+      if (wants_.eye_positions) batch_.eye_positions.emplace_back(vertex.position);
+      if (wants_.vertex_ids) {
+        batch_.vertex_ids.push_back(vertex.source == k_clip_made ? k_no_vertex_id
+                                                                 : polygon.corners[vertex.source]);
       }
     }
     return first;
   }
 
-  void append_record(std::size_t first, std::size_t count, const Material& material, bool faces_away) {
-    batch_.polygons.push_back(
-        {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count), &material, faces_away});
+  void append_record(std::size_t first, std::size_t count, const PlacedSurface& placed, bool faces_away) {
+    batch_.polygons.push_back({static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count),
+                               &placed.surface.material, faces_away, placed.surface_id, placed.object_id});
   }
 
   // Triangles take their own copies of the polygon's vertices, behind them in the batch; no attribute
   // changes.
-  void append_triangles(std::size_t first, const V3d& normal_eye, const Material& material, bool faces_away) {
+  void append_triangles(std::size_t first, const V3d& normal_eye, const PlacedSurface& placed,
+                        bool faces_away) {
     const std::size_t corners = ring_.size();
     if (corners == 3) {
-      append_record(first, 3, material, faces_away);
+      append_record(first, 3, placed, faces_away);
       ++counts.triangles;
       return;
     }
@@ -193,12 +216,13 @@ class Stage {
       const std::size_t start = batch_.vertices.size();
       for (const std::uint32_t corner : triangle) {
         batch_.vertices.push_back(ScreenVertex(batch_.vertices[first + corner]));
-        if (attributes_) {
-          batch_.normals.push_back(V3f(batch_.normals[first + corner]));
-          batch_.eye_positions.push_back(V3f(batch_.eye_positions[first + corner]));
+        if (wants_.normals) batch_.normals.push_back(V3f(batch_.normals[first + corner]));
+        if (wants_.eye_positions) batch_.eye_positions.push_back(V3f(batch_.eye_positions[first + corner]));
+        if (wants_.vertex_ids) {
+          batch_.vertex_ids.push_back(std::uint32_t{batch_.vertex_ids[first + corner]});
         }
       }
-      append_record(start, 3, material, faces_away);
+      append_record(start, 3, placed, faces_away);
     }
   }
 
@@ -208,7 +232,8 @@ class Stage {
   GeometryClocks& clocks_;
   DeviceMapping mapping_;
   Frustum frustum_;
-  bool attributes_;
+  PolygonWants wants_;
+  bool triangles_only_;
 
   ScreenPolygonBatch batch_;
   std::vector<EyeVertex> ring_;
@@ -254,25 +279,25 @@ GeometryReport run_geometry(const Scene& scene, const GeometrySetup& setup, cons
   const M44d to_eye = world_to_eye(setup.camera);
   {
     const TimedSlice slice(clocks.sink);
-    sink.begin_frame(setup.viewport.frame());
+    ScreenFrame frame = setup.viewport.frame();
+    const PolygonWants wants = sink.wants();
+    if (wants.max_vertices) {
+      frame.max_vertices = options.triangles || wants.triangles ? 3 : largest_corner_count(scene);
+    }
+    sink.begin_frame(frame);
   }
   clocks.geometry.start();
   Stage stage(setup, options, sink, clocks);
   const auto tick = [&] {
     if (progress) progress(stage.counts.loaded, total);
   };
-  const auto run_object = [&](const Object& object, const M44d& parent_to_world) {
-    std::uint64_t expected_at_tips = 0;
+  report.degenerate_of_input.resize(scene.root.children.size());
+  for_each_surface(scene, [&](const SurfacePlacement& placement) {
     const std::uint64_t before = stage.counts.degenerate;
-    for_each_surface(object, parent_to_world, [&](const Surface& surface, const M44d& local_to_world) {
-      stage.surface(PlacedSurface(surface, local_to_world, to_eye, setup.camera.from), tick);
-      expected_at_tips += surface.cone_tip_triangles;
-    });
-    return stage.counts.degenerate - before - expected_at_tips;
-  };
-  for (const auto& child : scene.root.children) {
-    report.degenerate_of_input.push_back(run_object(*child, scene.root.to_parent));
-  }
+    stage.surface(PlacedSurface(placement, to_eye, setup.camera.from), tick);
+    report.degenerate_of_input[placement.input] +=
+        stage.counts.degenerate - before - placement.surface.cone_tip_triangles;
+  });
   stage.flush();
   clocks.geometry.stop();
   {

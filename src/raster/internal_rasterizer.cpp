@@ -129,7 +129,7 @@ void InternalRasterizer::polygons(const ScreenPolygonBatch& batch) {
       broken_contract("a polygon reaches beyond the vertices of its batch");
     }
   }
-  if (wants_shading_attributes() && (batch.normals.size() != batch.vertices.size() ||
+  if (options_.mode == DrawMode::phong && (batch.normals.size() != batch.vertices.size() ||
                                      batch.eye_positions.size() != batch.vertices.size())) {
     broken_contract("normals or eye positions missing");
   }
@@ -155,7 +155,7 @@ void InternalRasterizer::draw_lines(const ScreenPolygonBatch& batch) {
 }
 
 void InternalRasterizer::draw_filled(const ScreenPolygonBatch& batch) {
-  const bool phong = wants_shading_attributes();
+  const bool phong = options_.mode == DrawMode::phong;
   for (const ScreenPolygonRecord& record : batch.polygons) {
     FillPolygon polygon{batch.corners(record), {}, {}, record.material};
     if (options_.mode == DrawMode::flat) {

@@ -53,7 +53,11 @@ class InternalRasterizer : public ScreenPolygonSink {
   InternalRasterizer(const InternalRasterizer&) = delete;
   InternalRasterizer& operator=(const InternalRasterizer&) = delete;
 
-  bool wants_shading_attributes() const override { return options_.mode == DrawMode::phong; }
+  PolygonWants wants() const override {
+    PolygonWants wants;
+    wants.normals = wants.eye_positions = options_.mode == DrawMode::phong;
+    return wants;
+  }
   void begin_frame(const ScreenFrame& frame) override;
   /// Materials are used until end_frame.
   void polygons(const ScreenPolygonBatch& batch) override;

@@ -12,10 +12,10 @@ std::optional<Bounds> world_bounds(const Scene& scene) {
   constexpr double inf = std::numeric_limits<double>::infinity();
   Bounds box{V3d(inf, inf, inf), V3d(-inf, -inf, -inf)};
   bool any = false;
-  for_each_surface(scene, [&](const Surface& surface, const M44d& local_to_world) {
-    const bool moved = local_to_world != M44d();
-    for (const V3d& p : surface.positions) {
-      const V3d world = moved ? p * local_to_world : p;
+  for_each_surface(scene, [&](const SurfacePlacement& placement) {
+    const bool moved = placement.local_to_world != M44d();
+    for (const V3d& p : placement.surface.positions) {
+      const V3d world = moved ? p * placement.local_to_world : p;
       for (int axis = 0; axis < 3; ++axis) {
         box.low[axis] = std::min(box.low[axis], world[axis]);
         box.high[axis] = std::max(box.high[axis], world[axis]);

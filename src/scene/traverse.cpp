@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scene/traverse.h"
 
+#include <unordered_map>
 #include <unordered_set>
 
 namespace farop {
@@ -24,16 +25,38 @@ void count_object(const Object& object, SceneTotals& sums, std::unordered_set<co
   }
 }
 
+/// A walk through the tree, and the numbers it has given so far.
+class Walk {
+ public:
+  explicit Walk(const SurfaceVisitor& visit) : visit_(visit) {}
+
+  void object(const Object& object, const M44d& parent_to_world, std::size_t input) {
+    const M44d local_to_world = object.to_parent * parent_to_world;
+    const std::uint32_t object_id = objects_++;
+    for (const auto& surface : object.surfaces) {
+      visit_({*surface, local_to_world, id_of(surface), object_id, input});
+    }
+    const bool is_root = object_id == 0;
+    for (std::size_t i = 0; i < object.children.size(); ++i) {
+      this->object(*object.children[i], local_to_world, is_root ? i : input);
+    }
+  }
+
+ private:
+  std::uint32_t id_of(const std::shared_ptr<Surface>& surface) {
+    return surfaces_.try_emplace(surface.get(), static_cast<std::uint32_t>(surfaces_.size() + 1))
+        .first->second;
+  }
+
+  const SurfaceVisitor& visit_;
+  std::uint32_t objects_ = 0;
+  std::unordered_map<const Surface*, std::uint32_t> surfaces_;
+};
+
 }  // namespace
 
-void for_each_surface(const Object& object, const M44d& parent_to_world, const SurfaceVisitor& visit) {
-  const M44d local_to_world = object.to_parent * parent_to_world;
-  for (const auto& surface : object.surfaces) visit(*surface, local_to_world);
-  for (const auto& child : object.children) for_each_surface(*child, local_to_world, visit);
-}
-
 void for_each_surface(const Scene& scene, const SurfaceVisitor& visit) {
-  for_each_surface(scene.root, M44d(), visit);
+  Walk(visit).object(scene.root, M44d(), 0);
 }
 
 SceneTotals totals(const Scene& scene) {

@@ -24,6 +24,7 @@ const std::map<std::string, Rooms> k_may_include = {
     {"spd", {"core", "scene"}},
     {"geometry", {"core", "shading", "scene"}},
     {"raster", {"core", "shading"}},
+    {"plugin", {"core", "shading"}},
     {"export", {"core", "shading", "scene"}},
 };
 

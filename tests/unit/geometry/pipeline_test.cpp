@@ -18,7 +18,11 @@ namespace {
 class Recorder : public ScreenPolygonSink {
  public:
   explicit Recorder(bool attributes = false) : attributes_(attributes) {}
-  bool wants_shading_attributes() const override { return attributes_; }
+  PolygonWants wants() const override {
+    PolygonWants wants;
+    wants.normals = wants.eye_positions = attributes_;
+    return wants;
+  }
   void begin_frame(const ScreenFrame& f) override { frame = f; }
   void polygons(const ScreenPolygonBatch& batch) override {
     for (const ScreenPolygonRecord& record : batch.polygons) {
@@ -109,6 +113,71 @@ TEST(Pipeline, HandsOverAFrontFaceCounterClockwise) {
   for (std::size_t i = 0; i < 4; ++i)
     area += std::int64_t{r[i].x} * r[(i + 1) % 4].y - std::int64_t{r[(i + 1) % 4].x} * r[i].y;
   EXPECT_GT(area, 0);
+}
+
+/// Wants what a rasterizer may ask for, and keeps the ids.
+class IdRecorder : public ScreenPolygonSink {
+ public:
+  explicit IdRecorder(bool triangles) : triangles_(triangles) {}
+  PolygonWants wants() const override {
+    PolygonWants wants;
+    wants.triangles = triangles_;
+    wants.vertex_ids = wants.max_vertices = true;
+    return wants;
+  }
+  void begin_frame(const ScreenFrame& f) override { frame = f; }
+  void polygons(const ScreenPolygonBatch& batch) override {
+    ASSERT_EQ(batch.vertex_ids.size(), batch.vertices.size());
+    for (const ScreenPolygonRecord& record : batch.polygons) {
+      EXPECT_LE(record.vertex_count, frame.max_vertices);
+      const auto first = batch.vertex_ids.begin() + record.first_vertex;
+      ids.emplace_back(first, first + record.vertex_count);
+      objects.push_back(record.object_id);
+      surfaces.push_back(record.surface_id);
+    }
+  }
+  void end_frame() override {}
+
+  ScreenFrame frame;
+  std::vector<std::vector<std::uint32_t>> ids;
+  std::vector<std::uint32_t> objects, surfaces;
+
+ private:
+  bool triangles_;
+};
+
+void run(Bench& bench, ScreenPolygonSink& sink) {
+  const GeometrySetup setup = prepare_geometry(bench.scene, bench.camera, bench.viewport, bench.options);
+  run_geometry(bench.scene, setup, bench.options, sink, bench.clocks);
+}
+
+TEST(Pipeline, NamesCornersByTheirVertexAndMarksThoseThatClippingMade) {
+  Bench bench;
+  bench.add(k_square);                                          // vertices 0 1 2 3
+  bench.add({{1, -1, 0}, {3, -1, 0}, {3, 1, 0}, {1, 1, 0}});    // 1 4 5 2: shares an edge
+  bench.add({{8, -1, 0}, {12, -1, 0}, {12, 1, 0}, {8, 1, 0}});  // 6 .. 9, across the right side
+  bench.close();
+  bench.add(k_square);
+  bench.close();
+  IdRecorder got(false);
+  run(bench, got);
+  const std::uint32_t made = k_no_vertex_id;
+  EXPECT_EQ(got.ids, (std::vector<std::vector<std::uint32_t>>{
+                         {0, 1, 2, 3}, {1, 4, 5, 2}, {6, made, made, 9}, {0, 1, 2, 3}}));
+  EXPECT_EQ(got.surfaces, (std::vector<std::uint32_t>{1, 1, 1, 2}));
+  EXPECT_EQ(got.objects, (std::vector<std::uint32_t>{1, 1, 1, 2}));
+  EXPECT_GE(got.frame.max_vertices, 10u);  // a square that all six planes cut
+}
+
+TEST(Pipeline, GivesNothingButTrianglesToASinkThatWantsThem) {
+  Bench bench;
+  bench.add(k_square);
+  bench.close();
+  IdRecorder got(true);
+  run(bench, got);
+  EXPECT_EQ(got.frame.max_vertices, 3u);
+  ASSERT_EQ(got.ids.size(), 2u);
+  EXPECT_EQ(got.ids[0].size(), 3u);
 }
 
 TEST(Pipeline, CountsEveryFateAndTheyAddUp) {

@@ -34,8 +34,8 @@ Corners square(int z = 100) {
 }
 
 TEST(Phong, AsksForNormalsAndPositions) {
-  EXPECT_TRUE(InternalRasterizer(phong_with({})).wants_shading_attributes());
-  EXPECT_FALSE(InternalRasterizer({}).wants_shading_attributes());
+  EXPECT_TRUE(InternalRasterizer(phong_with({})).wants().normals);
+  EXPECT_FALSE(InternalRasterizer({}).wants().normals);
 }
 
 TEST(Phong, EqualsFlatShadingOnAPlaneWithoutHighlightAndALightFarAway) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "core/error.h"
 #include "scene/bounds.h"
 #include "scene/merge.h"
@@ -38,8 +40,27 @@ TEST(Traverse, TransformationsReachAllSubObjects) {
   child->surfaces = parent.surfaces;
   parent.children.push_back(child);
   std::vector<V3d> corner;
-  for_each_surface(scene, [&](const Surface& s, const M44d& m) { corner.push_back(s.positions[1] * m); });
+  for_each_surface(
+      scene, [&](const SurfacePlacement& p) { corner.push_back(p.surface.positions[1] * p.local_to_world); });
   EXPECT_EQ(corner, (std::vector<V3d>{{11, 0, 0}, {12, 0, 0}}));
+}
+
+TEST(Traverse, NumbersPlacedObjectsAnewAndSharedSurfacesOnce) {
+  Scene scene = scene_with("a");
+  const auto first = scene.root.children[0];
+  first->surfaces.push_back(triangle_surface());
+  auto second = std::make_shared<Object>();
+  second->surfaces = {triangle_surface(), first->surfaces[1]};
+  auto inner = std::make_shared<Object>();
+  inner->surfaces = {first->surfaces[0]};
+  first->children.push_back(inner);
+  scene.root.children.push_back(second);
+  std::vector<std::array<std::size_t, 3>> ids;  // object, surface, input
+  for_each_surface(scene, [&](const SurfacePlacement& p) {
+    ids.push_back({p.object_id, p.surface_id, p.input});
+  });
+  EXPECT_EQ(ids,
+            (std::vector<std::array<std::size_t, 3>>{{1, 1, 0}, {1, 2, 0}, {2, 1, 0}, {3, 3, 1}, {3, 2, 1}}));
 }
 
 TEST(Traverse, TotalsCountInstancesEachTimeAndTheirMemoryOnce) {
