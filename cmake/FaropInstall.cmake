@@ -3,6 +3,7 @@
 include(CMakePackageConfigHelpers)
 
 set(stages core shading scene parse_nff spd geometry raster plugin export)
+install(TARGETS farop_pictures EXPORT farop-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 foreach(stage IN LISTS stages)
   install(TARGETS farop_${stage} EXPORT farop-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/${stage} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/farop

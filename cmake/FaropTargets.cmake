@@ -4,7 +4,7 @@
 add_library(farop_build_flags INTERFACE)
 target_compile_features(farop_build_flags INTERFACE cxx_std_20)
 # No contraction: the fast and the plain path of one calculation must round alike on every machine.
-target_compile_options(farop_build_flags INTERFACE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+target_compile_options(farop_build_flags INTERFACE -ffp-contract=off -fno-semantic-interposition -Wall -Wextra -Wpedantic -Wshadow -Wconversion
                                                    -Wno-sign-conversion -Wnon-virtual-dtor -Wold-style-cast)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # GCC 12 sees overlapping copies in std::string operator+ that are not there (GCC bug 105651).
@@ -31,7 +31,8 @@ function(farop_add_stage name)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(farop_${name} STATIC ${ARG_SOURCES})
   add_library(farop::${name} ALIAS farop_${name})
-  set_target_properties(farop_${name} PROPERTIES EXPORT_NAME ${name})
+  # Position-independent: some end up in shared libraries (pictures) as well as in the program.
+  set_target_properties(farop_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
   target_include_directories(farop_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
                                                   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/farop>)
   target_compile_features(farop_${name} PUBLIC cxx_std_20)

@@ -15,6 +15,7 @@
 #include "core/error.h"
 #include "core/output_file.h"
 #include "export/image_buffer_internal.h"
+#include "export/ppm_writer.h"
 
 namespace farop {
 namespace {
@@ -25,7 +26,6 @@ using OIIO::TypeDesc;
 
 constexpr const char* k_image_hint = "there are .ppm .png .exr .tif .jpg .bmp .tga .webp .hdr .gif .dpx";
 constexpr const char* k_depth_hint = "depths are floating-point numbers: use .exr or .tif";
-constexpr std::size_t k_block = std::size_t{1} << 20;
 
 /// Lower case, without the dot; empty where there is none.
 std::string extension_of(const std::string& path) {
@@ -35,19 +35,6 @@ std::string extension_of(const std::string& path) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   }
   return extension;
-}
-
-bool is_special_file(const std::string& path) {
-  std::error_code ec;
-  const std::filesystem::file_type type = std::filesystem::status(path, ec).type();
-  using std::filesystem::file_type;
-  return type == file_type::fifo || type == file_type::character || type == file_type::block ||
-         type == file_type::socket;
-}
-
-bool is_ppm(const std::string& path) {
-  const std::string extension = extension_of(path);
-  return path == "-" || extension == "ppm" || extension == "pnm" || is_special_file(path);
 }
 
 /// The formats, by OpenImageIO's names, that the tests find right from a single pixel up. All are encoded in
@@ -122,27 +109,14 @@ void write_encoded(const std::string& path, ImageOutput& encoder, const ImageSpe
   file.commit();
 }
 
-void write_ppm(const std::string& path, const Framebuffer& picture) {
-  OutputFile file(path);
-  std::string block = fmt::format("P6\n{} {}\n255\n", picture.width, picture.height);
-  for (int y = picture.height - 1; y >= 0; --y) {
-    block.append(reinterpret_cast<const char*>(&picture.rgb[3 * picture.pixel(0, y)]),
-                 3 * static_cast<std::size_t>(picture.width));
-    if (block.size() < k_block && y > 0) continue;
-    file.write(block);
-    block.clear();
-  }
-  file.commit();
-}
-
 }  // namespace
 
 void check_image_path(const std::string& path) {
-  if (!is_ppm(path)) require_encoder(path);
+  if (!is_ppm_path(path)) require_encoder(path);
 }
 
 void write_image(const std::string& path, const Framebuffer& picture) {
-  if (is_ppm(path)) return write_ppm(path, picture);
+  if (is_ppm_path(path)) return write_ppm(path, picture);
   const std::unique_ptr<ImageOutput> encoder = require_encoder(path);
   const std::string_view format = encoder->format_name();
   const bool floats = format == "openexr" || format == "hdr";

@@ -17,12 +17,11 @@ namespace farop {
 /// the work that makes the picture.
 void check_image_path(const std::string& path);
 
-/// Writes the colours of `picture`. `.ppm` and `.pnm` are PPM P6, and so are "-" (standard output) and
-/// targets that are no regular files (pipes, devices), whatever their names. PNG, EXR, TIFF, JPEG, BMP, TGA,
-/// WebP, HDR, GIF and DPX are written by OpenImageIO, under all extensions it knows for them; JPEG, WebP, HDR
-/// and GIF keep colours nearly, the others exactly. Throws as check_image_path(); Error(ExitStatus::usage)
-/// also when the format cannot hold the picture (too large, say); Error(ExitStatus::surroundings) when the
-/// file cannot be written, an older file is then untouched.
+/// Writes the colours of `picture`: PPM as write_ppm() does (export/ppm_writer.h). PNG, EXR, TIFF, JPEG, BMP,
+/// TGA, WebP, HDR, GIF and DPX are written by OpenImageIO, under all extensions it knows for them; JPEG,
+/// WebP, HDR and GIF keep colours nearly, the others exactly. Throws as check_image_path();
+/// Error(ExitStatus::usage) also when the format cannot hold the picture (too large, say);
+/// Error(ExitStatus::surroundings) when the file cannot be written, an older file is then untouched.
 void write_image(const std::string& path, const Framebuffer& picture);
 
 /// Throws Error(ExitStatus::usage) when `path` is neither an EXR nor a TIFF.

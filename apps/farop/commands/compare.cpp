@@ -4,8 +4,7 @@
 
 #include "command_line.h"
 #include "core/output_file.h"
-#include "export/image_compare.h"
-#include "export/image_writer.h"
+#include "picture_library.h"
 #include "session.h"
 
 namespace farop::app {
@@ -35,9 +34,9 @@ std::string report_text(const CompareResult& r) {
 }
 
 void run(Session& session, const CompareOptions& options) {
-  if (!options.output.empty()) check_image_path(options.output);
-  const CompareResult result =
-      compare_images(options.pictures[0], options.pictures[1], options.thresholds, options.output);
+  if (!options.output.empty()) check_picture_path(options.output);
+  const CompareResult result = picture_library().compare_images(options.pictures[0], options.pictures[1],
+                                                                options.thresholds, options.output);
   if (!options.output.empty()) {
     session.report.outputs.push_back(options.output);
     session.console.summary("{}: differences, {:.4g} times as large", options.output,

@@ -4,7 +4,7 @@
 #include "command_line.h"
 #include "core/word_reader.h"
 #include "export/flat_reader.h"
-#include "export/image_writer.h"
+#include "picture_library.h"
 #include "raster/internal_rasterizer.h"
 #include "session.h"
 
@@ -25,8 +25,8 @@ void run(Session& session, const RasterOptions& options) {
                 fmt::format("{} inputs given, expected one flat file", options.input.files.size()));
   }
   const std::string output = output_path(options.output, options.input.files, ".ppm");
-  check_image_path(output);
-  if (!options.depth_file.empty()) check_depth_path(options.depth_file);
+  check_picture_path(output);
+  if (!options.depth_file.empty()) picture_library().check_depth_path(options.depth_file);
 
   InternalRasterizerOptions drawing;
   drawing.mode = draw_mode(options.mode);
@@ -50,8 +50,8 @@ void run(Session& session, const RasterOptions& options) {
   session.report.raster = {"internal", options.mode, 1};
   {
     const TimedSlice slice(session.clocks.write);
-    write_image(output, picture);
-    if (!options.depth_file.empty()) write_depth(options.depth_file, picture);
+    write_picture_file(output, picture);
+    if (!options.depth_file.empty()) picture_library().write_depth(options.depth_file, picture);
   }
   session.report.outputs.push_back(output);
   if (!options.depth_file.empty()) session.report.outputs.push_back(options.depth_file);

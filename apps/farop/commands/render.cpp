@@ -3,7 +3,7 @@
 
 #include "command_line.h"
 #include "core/limits.h"
-#include "export/image_writer.h"
+#include "picture_library.h"
 #include "raster/internal_rasterizer.h"
 #include "session.h"
 
@@ -39,10 +39,10 @@ void write_picture(Session& session, InternalRasterizer& rasterizer, const std::
                    const std::string& depth_file) {
   const Framebuffer picture = rasterizer.take();
   const TimedSlice slice(session.clocks.write);
-  write_image(output, picture);
+  write_picture_file(output, picture);
   session.report.outputs.push_back(output);
   if (depth_file.empty()) return;
-  write_depth(depth_file, picture);
+  picture_library().write_depth(depth_file, picture);
   session.report.outputs.push_back(depth_file);
 }
 
@@ -58,9 +58,9 @@ void run(Session& session, const RenderOptions& options) {
   }
   const std::string output = null ? "" : output_path(options.output, options.input.files, ".ppm");
   if (!options.drawing.depth_file.empty()) {
-    check_depth_path(output_path(options.drawing.depth_file, options.input.files, ""));
+    picture_library().check_depth_path(output_path(options.drawing.depth_file, options.input.files, ""));
   }
-  if (!null) check_image_path(output);
+  if (!null) check_picture_path(output);
   int samples = options.drawing.samples;
   if (mode == DrawMode::line && samples > 1) {
     session.console.notice("--samples is ignored in line mode");

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "export/ppm_writer.h"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <filesystem>
+
+#include "core/output_file.h"
+
+namespace farop {
+namespace {
+
+constexpr std::size_t k_block = std::size_t{1} << 20;
+
+bool is_special_file(const std::string& path) {
+  std::error_code ec;
+  const std::filesystem::file_type type = std::filesystem::status(path, ec).type();
+  using std::filesystem::file_type;
+  return type == file_type::fifo || type == file_type::character || type == file_type::block ||
+         type == file_type::socket;
+}
+
+}  // namespace
+
+bool is_ppm_path(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  for (char& c : extension) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return path == "-" || extension == ".ppm" || extension == ".pnm" || is_special_file(path);
+}
+
+void write_ppm(const std::string& path, const Framebuffer& picture) {
+  OutputFile file(path);
+  std::string block = fmt::format("P6\n{} {}\n255\n", picture.width, picture.height);
+  for (int y = picture.height - 1; y >= 0; --y) {
+    block.append(reinterpret_cast<const char*>(&picture.rgb[3 * picture.pixel(0, y)]),
+                 3 * static_cast<std::size_t>(picture.width));
+    if (block.size() < k_block && y > 0) continue;
+    file.write(block);
+    block.clear();
+  }
+  file.commit();
+}
+
+}  // namespace farop
