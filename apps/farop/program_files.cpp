@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 fs::path library_file(const std::string& name) {
   std::error_code ec;
   const fs::path program_folder = fs::read_symlink("/proc/self/exe", ec).parent_path();
-  const fs::path in_build_folder = program_folder / "lib" / "farop" / name;
+  fs::path in_build_folder = program_folder / "lib" / "farop" / name;
   if (fs::exists(in_build_folder, ec)) return in_build_folder;
   return (program_folder / k_bin_to_lib / "farop" / name).lexically_normal();
 }

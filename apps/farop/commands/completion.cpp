@@ -95,7 +95,7 @@ complete -o filenames -F _farop farop
       joined_names(app), options, values, scene_names());
 }
 
-std::string quoted(std::string text, std::string_view special) {
+std::string quoted(std::string_view text, std::string_view special) {
   std::string out;
   for (const char c : text) {
     if (special.find(c) != std::string_view::npos) out += '\\';
