@@ -95,7 +95,8 @@ static inline void step_up(edge* e) {
   for (int a = 0; a < ATTRIBUTES; a++) e->value[a] += e->change[a];
 }
 
-// Left to right by the crossing; edges through one point by their direction.
+// Left to right by the crossing; edges through one point by their direction, so that they are in order on the
+// next line too.
 static inline bool is_right_of(const edge* a, const edge* b) {
   if (a->x_int != b->x_int) return a->x_int > b->x_int;
   const int64_t frac_a = (int64_t)a->x_frac * b->dy, frac_b = (int64_t)b->x_frac * a->dy;
