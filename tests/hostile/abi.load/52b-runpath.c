@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Does: names a folder of its own to look for a library in; the library's constructor says that it runs.
+// Why:  a second library that nobody has looked at.
+// also: pass
+#include "../hostile.h"
+
+__attribute__((visibility("default"))) void farop_hostile_second(
+    void);  // from helpers/second.c, beside this plug-in
+
+static farop_status deed(const farop_polygon* polygon) {
+  (void)polygon;
+  farop_hostile_second();
+  return FAROP_OK;
+}
+
+HOSTILE_PLUGIN(.before = deed)

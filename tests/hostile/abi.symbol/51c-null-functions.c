@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Does: has no polygon() in its table.
+// Why:  a null pointer that would be called.
+// also: abi.load
+#include "../hostile.h"
+
+FAROP_EXPORT const farop_rasterizer* FAROP_CALL farop_rasterizer_entry(const farop_host* host) {
+  static const struct hostile_hooks hooks;
+  farop_rasterizer* table = hostile_start(host, &hooks);
+  table->polygon = NULL;
+  return table;
+}

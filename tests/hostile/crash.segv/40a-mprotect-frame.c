@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Does: makes the frame unreadable and draws on.
+// Why:  it hurts itself; the judge has a mapping of its own.
+// also: frame.blank, limit.syscall, pass
+#include "../hostile.h"
+
+static farop_status deed(const farop_polygon* polygon) {
+  (void)polygon;
+  uintptr_t first;
+  size_t bytes;
+  hostile_frame_pages(&first, &bytes);
+  mprotect((void*)first, bytes, PROT_NONE);
+  return FAROP_OK;
+}
+
+HOSTILE_PLUGIN(.before = deed)

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Does: writes 64 MiB into /dev/shm and into a memfd.
+// Why:  memory that no address-space limit counts once it is unmapped; and a channel between sandboxes.
+// also: limit.output
+#include "../hostile.h"
+
+static void fill(const char* folder) {
+  char path[64];
+  snprintf(path, sizeof path, "%s/" HOSTILE_CANARY "-fill", folder);
+  int fd = open(path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  if (fd < 0) return;
+  unlink(path);  // what is written is gone with the process
+  hostile_found("hostile-hole", folder, "file made");
+  static char block[1 << 20];
+  memset(block, 0x5A, sizeof block);
+  for (int i = 0; i < 64; ++i)
+    if (write(fd, block, sizeof block) <= 0) break;
+  close(fd);
+}
+
+static farop_status deed(const farop_polygon* polygon) {
+  (void)polygon;
+  fill("/dev/shm");
+  int fd = (int)syscall(SYS_memfd_create, HOSTILE_MARKER, 0);
+  hostile_must_fail("memfd_create", fd);
+  if (fd < 0) return FAROP_OK;
+  static char block[1 << 20];
+  for (int i = 0; i < 64; ++i)
+    if (write(fd, block, sizeof block) <= 0) break;
+  close(fd);
+  return FAROP_OK;
+}
+
+HOSTILE_PLUGIN(.before = deed)
