@@ -166,8 +166,8 @@ static void fill_trapezoid(const trapezoid* self, int y_top, int y_bottom, edge*
 // ---- cutting into trapezoids
 // --------------------------------------------------------------------------------
 
-// From left to right in the layer of trapezoids y_bottom <= y < y_top: by the crossings with its lowest line,
-// or where these agree, with its highest.
+// From left to right in the layer of trapezoids y_bottom <= y < y_top: by the crossings with its lowest line.
+// Sides that meet there are told apart on its highest, else it would seem that they cross.
 static bool is_left_of(const edge* a, const edge* b, int y_bottom, int y_top) {
   const int order = compare_on_line(a, b, y_bottom);
   return order != 0 ? order < 0 : compare_on_line(a, b, y_top - 1) < 0;

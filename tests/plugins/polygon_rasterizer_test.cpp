@@ -180,12 +180,12 @@ TEST_P(PolygonRasterizer, FillsCombs) {
 
 TEST_P(PolygonRasterizer, TakesTwentyThousandCorners) {
   PluginFrame frame;
-  frame.width = 1000, frame.height = 60;
+  frame.width = 500, frame.height = 60;
   Random random(24);
   Corners few = {vertex(3, 3), vertex(50, 9), vertex(20, 30)}, comb;
   for (int i = 0; i < 9999; ++i) {
-    // 20 combs over each other: each sample is inside of an even or odd number of teeth.
-    const int x = 2 * (i % 499);
+    // 40 combs over each other: each sample is inside of an even or odd number of teeth.
+    const int x = 2 * (i % 249);
     comb.push_back(vertex(x, random.integer(1, 5)));
     comb.push_back(vertex(x + 1, random.integer(6, 58)));
   }
@@ -344,8 +344,7 @@ TEST_P(PolygonRasterizer, InterpolatesAnyColourByScanLines) {
 TEST_P(PolygonRasterizer, ShowsEveryBarOfARing) {
   // Four bars, each over the next: no order of whole polygons is right.
   const auto bar = [](int x1, int y1, int x2, int y2, int shade) {
-    Corners corners = rectangle(x1, y1, x2, y2, 0, shade, 0, 0);
-    return corners;
+    return rectangle(x1, y1, x2, y2, 0, shade, 0, 0);
   };
   std::array<Corners, 4> bars = {bar(8, 8, 56, 16, 50), bar(48, 8, 56, 56, 90), bar(8, 48, 56, 56, 130),
                                  bar(8, 8, 16, 56, 170)};
