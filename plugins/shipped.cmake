@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# farop_ship_plugin(NAME SOURCES ...): farop_add_plugin() with this project's warnings, sanitizers and language standards.
+# farop_ship_plugin(NAME SOURCES ...): farop_add_plugin() with this project's warnings, sanitizers and language standards, where the program finds it.
 include_guard(GLOBAL)
 
 function(farop_ship_plugin name)
   farop_add_plugin(${name} ${ARGN})
   set_target_properties(${name} PROPERTIES C_STANDARD 11 C_STANDARD_REQUIRED ON C_EXTENSIONS OFF
-                                           CXX_STANDARD 20 CXX_STANDARD_REQUIRED ON CXX_EXTENSIONS OFF)
+                                           CXX_STANDARD 20 CXX_STANDARD_REQUIRED ON CXX_EXTENSIONS OFF
+                                           LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib/farop/plugins)
+  install(TARGETS ${name} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/farop/plugins)
   # No contraction: the same numbers, and so the same picture, on every machine.
   target_compile_options(${name} PRIVATE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconversion
                                          -Wno-sign-conversion $<$<BOOL:${FAROP_WARNINGS_AS_ERRORS}>:-Werror>)

@@ -69,6 +69,7 @@ CommandLine::CommandLine()
   add_spd(*this);
   add_info(*this);
   add_compare(*this);
+  add_plugins(*this);
   add_completion(*this);
   add_man(*this);
 }

@@ -45,7 +45,6 @@ struct DrawingOptions {
   std::string mode = "gouraud";
   int samples = 1;
   std::string depth_file;
-  std::string rasterizer = "internal";
 };
 
 struct ReportOptions {

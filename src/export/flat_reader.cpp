@@ -182,8 +182,12 @@ class LineReader {
 
 class FlatParser {
  public:
-  FlatParser(WordReader& words, DiagnosticSink& diagnostics, ScreenPolygonSink& sink, bool y_down)
-      : lines_(words, diagnostics), sink_(sink), y_down_(y_down) {}
+  FlatParser(WordReader& words, DiagnosticSink& diagnostics, ScreenPolygonSink& sink,
+             const FlatReadOptions& options)
+      : lines_(words, diagnostics),
+        sink_(sink),
+        options_(options),
+        turn_(options.y_down && !options.keep_rows) {}
 
   void read() {
     const ScreenFrame frame = read_resolution();
@@ -216,6 +220,8 @@ class FlatParser {
       frame.subpixel_bits =
           static_cast<int>(lines_.integer("the number of sub-pixel bits", 1, k_max_subpixel_bits));
     }
+    frame.y_down = options_.y_down && !turn_;
+    frame.max_vertices = options_.max_vertices;
     x_max_ = std::int64_t{r.x - 1} << frame.subpixel_bits;
     y_max_ = std::int64_t{r.y - 1} << frame.subpixel_bits;
     z_max_ = r.z - 1;
@@ -246,15 +252,18 @@ class FlatParser {
     read_separator(vertices);
     const std::span<const ScreenVertex> corners = std::span(batch_.vertices).subspan(first);
     expect_extent(corners, y_highest, y_highest_word, y_lowest, y_lowest_word);
-    batch_.polygons.push_back({static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(n), nullptr,
-                               twice_signed_area(corners) < 0});
+    // Clockwise on the screen; numbers that count down turn the sign.
+    const WideInteger area = twice_signed_area(corners);
+    const bool back_facing = options_.y_down && !turn_ ? area > 0 : area < 0;
+    batch_.polygons.push_back(
+        {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(n), nullptr, back_facing, 0, 0});
   }
 
   ScreenVertex read_vertex(const Announcement& vertices, std::int64_t number) {
     lines_.begin_line(k_vertex_line, vertices, number);
     ScreenVertex v;
     v.x = static_cast<std::int32_t>(lines_.integer("x", 0, x_max_));
-    v.y = static_cast<std::int32_t>(y_up(lines_.integer("y", 0, y_max_)));
+    v.y = static_cast<std::int32_t>(turned(lines_.integer("y", 0, y_max_)));
     v.z = static_cast<std::int32_t>(lines_.integer("z", 0, z_max_));
     v.r = read_color("R");
     v.g = read_color("G");
@@ -267,14 +276,16 @@ class FlatParser {
   }
 
   /// Between the file's y and the one handed on, either way.
-  std::int64_t y_up(std::int64_t y) const { return y_down_ ? y_max_ - y : y; }
+  std::int64_t turned(std::int64_t y) const { return turn_ ? y_max_ - y : y; }
 
   void expect_extent(std::span<const ScreenVertex> corners, std::int64_t y_highest,
                      const Word& y_highest_word, std::int64_t y_lowest, const Word& y_lowest_word) {
-    const auto by_y = [this](const ScreenVertex& a, const ScreenVertex& b) { return y_up(a.y) < y_up(b.y); };
+    const auto by_y = [this](const ScreenVertex& a, const ScreenVertex& b) {
+      return turned(a.y) < turned(b.y);
+    };
     const auto [low, high] = std::minmax_element(corners.begin(), corners.end(), by_y);
-    expect_bound("ymax", "largest", y_highest, y_up(high->y), corners.size(), y_highest_word);
-    expect_bound("ymin", "smallest", y_lowest, y_up(low->y), corners.size(), y_lowest_word);
+    expect_bound("ymax", "largest", y_highest, turned(high->y), corners.size(), y_highest_word);
+    expect_bound("ymin", "smallest", y_lowest, turned(low->y), corners.size(), y_lowest_word);
   }
 
   void expect_bound(const char* name, const char* which, std::int64_t found, std::int64_t expected,
@@ -304,7 +315,8 @@ class FlatParser {
 
   LineReader lines_;
   ScreenPolygonSink& sink_;
-  bool y_down_;
+  const FlatReadOptions& options_;
+  bool turn_;  ///< rows are turned y up
   std::int64_t x_max_ = 0, y_max_ = 0, z_max_ = 0, color_max_ = 0;
   ScreenPolygonBatch batch_;
 };
@@ -315,7 +327,7 @@ bool read_flat(WordReader& reader, DiagnosticSink& diagnostics, ScreenPolygonSin
                const FlatReadOptions& options) {
   if (options.progress) reader.set_progress(options.progress);
   try {
-    FlatParser(reader, diagnostics, polygons, options.y_down).read();
+    FlatParser(reader, diagnostics, polygons, options).read();
     return true;
   } catch (const Rejected&) {
     return false;

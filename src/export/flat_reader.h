@@ -12,12 +12,16 @@ namespace farop {
 struct FlatReadOptions {
   /// The numbers of the file count rows from the top (a flat file does not say so itself).
   bool y_down = false;
-  ProgressFunction progress;  ///< in bytes; may be empty
+  /// Under y_down: hands on rows as the file counts them, in a frame that says so, instead of turning them y
+  /// up.
+  bool keep_rows = false;
+  std::uint32_t max_vertices = 0;  ///< ScreenFrame::max_vertices of the frame; known from an earlier pass
+  ProgressFunction progress;       ///< in bytes; may be empty
 };
 
 /// Reads one flat file (farop.md section 4; the layout is in flat_format.h) and hands its polygons to
 /// `polygons` in batches, in file order, y up whatever the file counts (then y = its maximum minus the file's
-/// y).
+/// y) unless keep_rows.
 ///
 /// Every line holds exactly its integers; blank lines, further blanks, CRLF and `#` comments are allowed.
 /// Integers are decimal digits; leading zeros are allowed, signs are not (so "-0" is an error too). Colours

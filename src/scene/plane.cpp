@@ -9,7 +9,7 @@ namespace farop {
 std::optional<V3d> plane_normal(std::span<const V3d> positions, std::span<const std::uint32_t> corners) {
   // Relative to the first corner: far from the origin the products would otherwise cancel. Scaled by the
   // extent: the test is free of units, and squares of huge or tiny coordinates neither overflow nor vanish.
-  const V3d origin = positions[corners.front()];
+  const V3d& origin = positions[corners.front()];
   double extent = 0;
   for (const std::uint32_t c : corners) {
     const V3d d = positions[c] - origin;

@@ -24,6 +24,11 @@ std::string joined_names(const CLI::App& app) {
   return names;
 }
 
+/// "--long", or "-s" where there is no long name.
+std::string word_of(const CLI::Option& option) {
+  return option.get_lnames().empty() ? "-" + option.get_snames().front() : "--" + option.get_lnames().front();
+}
+
 std::vector<const CLI::Option*> shown_options(const CLI::App& command) {
   std::vector<const CLI::Option*> out;
   for (const std::string& group : option_groups(command)) {
@@ -57,11 +62,10 @@ std::string bash_script(const CLI::App& app) {
   for (const CLI::App* command : shown_commands(app)) {
     std::string names = "--help";
     for (const CLI::Option* option : shown_options(*command)) {
-      names += " --" + option->get_lnames().front();
+      names += " " + word_of(*option);
       const std::string words = choices(*option);
       if (!words.empty()) {
-        values += fmt::format("    {}:--{}) words='{}' ;;\n", command->get_name(),
-                              option->get_lnames().front(), words);
+        values += fmt::format("    {}:{}) words='{}' ;;\n", command->get_name(), word_of(*option), words);
       }
     }
     options += fmt::format("    {}) options='{}' ;;\n", command->get_name(), names);
@@ -122,7 +126,7 @@ std::string zsh_script(const CLI::App& app) {
       const std::string value = option->get_items_expected_max() == 0 ? ""
                                 : words.empty()                       ? ":value:_files"
                                                                       : fmt::format(":value:({})", words);
-      cases += fmt::format(" \\\n        '--{}[{}]{}'", option->get_lnames().front(),
+      cases += fmt::format(" \\\n        '{}[{}]{}'", word_of(*option),
                            in_single_quotes(quoted(option->get_description(), "[]:")), value);
     }
     cases += command->get_name() == "spd" ? fmt::format(" \\\n        ':scene:({})' ;;\n", scene_names())
@@ -160,8 +164,10 @@ std::string fish_script(const CLI::App& app) {
       const std::string value = option->get_items_expected_max() == 0 ? ""
                                 : words.empty()                       ? " -r"
                                                                       : fmt::format(" -x -a '{}'", words);
-      out += fmt::format("complete -c farop -n '__fish_seen_subcommand_from {}' -l {}{} -d '{}'\n", name,
-                         option->get_lnames().front(), value, quoted(option->get_description(), "'\\"));
+      const std::string fish_name = option->get_lnames().empty() ? "-s " + option->get_snames().front()
+                                                                 : "-l " + option->get_lnames().front();
+      out += fmt::format("complete -c farop -n '__fish_seen_subcommand_from {}' {}{} -d '{}'\n", name,
+                         fish_name, value, quoted(option->get_description(), "'\\"));
     }
   }
   return out +

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
 #include <memory>
 
 #include "command_line.h"
 #include "core/word_reader.h"
+#include "drawer.h"
 #include "export/flat_reader.h"
 #include "picture_library.h"
-#include "raster/internal_rasterizer.h"
 #include "session.h"
 
 namespace farop::app {
@@ -17,47 +22,124 @@ struct RasterOptions {
   std::vector<double> background;
   bool y_down = false;
   std::string mode = "gouraud";
+  RasterizerOptions rasterizer;
 };
+
+/// Counts what passes on its way to a rasterizer.
+class PolygonCounter : public ScreenPolygonSink {
+ public:
+  explicit PolygonCounter(ScreenPolygonSink& next) : next_(next) {}
+  PolygonWants wants() const override { return next_.wants(); }
+  void begin_frame(const ScreenFrame& frame) override {
+    frame_ = frame;
+    next_.begin_frame(frame);
+  }
+  void polygons(const ScreenPolygonBatch& batch) override {
+    count_ += batch.polygons.size();
+    next_.polygons(batch);
+  }
+  void end_frame() override { next_.end_frame(); }
+  std::uint64_t count() const { return count_; }
+  const ScreenFrame& frame() const { return frame_; }
+
+ private:
+  ScreenPolygonSink& next_;
+  ScreenFrame frame_;
+  std::uint64_t count_ = 0;
+};
+
+/// Largest polygon of a file, found out in a pass of its own.
+class LargestPolygon : public ScreenPolygonSink {
+ public:
+  void begin_frame(const ScreenFrame&) override {}
+  void polygons(const ScreenPolygonBatch& batch) override {
+    for (const ScreenPolygonRecord& record : batch.polygons)
+      vertices = std::max(vertices, record.vertex_count);
+  }
+  void end_frame() override {}
+
+  std::uint32_t vertices = 3;
+};
+
+std::string standard_input() {
+  std::string text;
+  std::array<char, 65536> block;
+  for (std::size_t got = 0; (got = std::fread(block.data(), 1, block.size(), stdin)) > 0;)
+    text.append(block.data(), got);
+  return text;
+}
+
+/// Reads the flat file into `sink`. A user's rasterizer is told the largest polygon first and never sees a
+/// part of a bad file: for it the file is read twice, from memory when it is standard input.
+void read_into(Session& session, const RasterOptions& options, RasterizerKind kind, ScreenPolygonSink& sink) {
+  const std::string& path = options.input.files.front();
+  FlatReadOptions reading;
+  reading.y_down = options.y_down;
+  reading.keep_rows = kind == RasterizerKind::library;
+  const auto read_from = [&](WordReader& reader, const char* what, ScreenPolygonSink& into) {
+    reading.progress = session.console.progress(what);
+    const TimedSlice slice(session.clocks.drawing.sink);  // reading and drawing alternate polygon by polygon
+    const bool whole = read_flat(reader, session.console, into, reading);
+    session.console.end_progress();
+    if (!whole) throw Error(ExitStatus::input, "");
+  };
+  const std::optional<std::string> text =
+      kind == RasterizerKind::library && path == "-" ? std::optional(standard_input()) : std::nullopt;
+  const auto read = [&](const char* what, ScreenPolygonSink& into) {
+    if (text) {
+      WordReader reader(*text, "<stdin>");
+      read_from(reader, what, into);
+    } else {
+      WordReader reader(path);
+      read_from(reader, what, into);
+    }
+  };
+  if (kind == RasterizerKind::library) {
+    LargestPolygon largest;
+    read("checking", largest);
+    reading.max_vertices = largest.vertices;
+  }
+  read("drawing", sink);
+}
 
 void run(Session& session, const RasterOptions& options) {
   if (options.input.files.size() != 1) {
     throw Error(ExitStatus::usage,
                 fmt::format("{} inputs given, expected one flat file", options.input.files.size()));
   }
-  const std::string output = output_path(options.output, options.input.files, ".ppm");
-  check_picture_path(output);
-  if (!options.depth_file.empty()) picture_library().check_depth_path(options.depth_file);
-
-  InternalRasterizerOptions drawing;
+  const ChosenRasterizer chosen = choose_rasterizer(options.rasterizer);
+  DrawerOptions drawing;
   drawing.mode = draw_mode(options.mode);
   drawing.keep_depth = !options.depth_file.empty();
   if (!options.background.empty())
     drawing.background = {options.background[0], options.background[1], options.background[2]};
-  InternalRasterizer rasterizer(drawing);
-  WordReader reader(options.input.files.front());
-  FlatReadOptions reading;
-  reading.y_down = options.y_down;
-  reading.progress = session.console.progress("drawing");
-  bool whole = false;
-  {
-    const TimedSlice slice(session.clocks.drawing.sink);  // reading and drawing alternate polygon by polygon
-    whole = read_flat(reader, session.console, rasterizer, reading);
-  }
-  session.console.end_progress();
-  if (!whole) throw Error(ExitStatus::input, "");
-  const Framebuffer picture = rasterizer.take();
-  session.report.polygons_loaded = rasterizer.counts().polygons;
-  session.report.raster = {"internal", options.mode, 1};
-  {
+  check_drawing(chosen, drawing);
+  const bool null = chosen.kind == RasterizerKind::null;
+  const std::string output = null ? "" : output_path(options.output, options.input.files, ".ppm");
+  if (!null) check_picture_path(output);
+  if (drawing.keep_depth) picture_library().check_depth_path(options.depth_file);
+
+  const std::unique_ptr<Drawer> drawer = make_drawer(session, chosen, options.rasterizer, drawing);
+  PolygonCounter counter(drawer->sink());
+  read_into(session, options, chosen.kind, counter);
+  session.report.polygons_loaded = counter.count();
+  session.report.raster = {drawer->name(), options.mode, 1};
+  const std::optional<Framebuffer> picture = drawer->take();
+  if (picture) {
     const TimedSlice slice(session.clocks.write);
-    write_picture_file(output, picture);
-    if (!options.depth_file.empty()) picture_library().write_depth(options.depth_file, picture);
+    write_picture_file(output, *picture);
+    session.report.outputs.push_back(output);
+    if (drawing.keep_depth) {
+      picture_library().write_depth(options.depth_file, *picture);
+      session.report.outputs.push_back(options.depth_file);
+    }
   }
-  session.report.outputs.push_back(output);
-  if (!options.depth_file.empty()) session.report.outputs.push_back(options.depth_file);
-  session.console.summary("{}: {} polygons, {} x {} ({:.3f} s)", output == "-" ? "standard output" : output,
-                          *session.report.polygons_loaded, picture.width, picture.height,
-                          session.clocks.drawing.sink.total().elapsed);
+  const Resolution& r = counter.frame().resolution;
+  session.console.summary("{}: {} polygons, {} x {} ({:.3f} s)",
+                          !picture        ? "no picture"
+                          : output == "-" ? "standard output"
+                                          : output,
+                          counter.count(), r.x, r.y, session.clocks.drawing.sink.total().elapsed);
 }
 
 }  // namespace
@@ -67,7 +149,7 @@ void add_raster(CommandLine& line) {
   CLI::App& command = line.add_command(
       "raster", "flat file -> picture",
       {{"farop raster gears.scr -o gears.png", "look at a flat file"},
-       {"farop raster gears.scr -o gears.ppm --background 1 1 1 --mode line", "its edges on white"}},
+       {"farop raster gears.scr -o trapezoid.ppm --rasterizer trapezoid", "drawn by another rasterizer"}},
       [options](Session& session) { run(session, *options); });
   command.add_option("input", options->input.files, "flat file; - is standard input")
       ->required()
@@ -84,6 +166,7 @@ void add_raster(CommandLine& line) {
       ->check(CLI::IsMember({"line", "flat", "gouraud"}))
       ->type_name("line|flat|gouraud")
       ->group("Drawing");
+  add_rasterizer_options(command, options->rasterizer);
   line.add_report_options(command);
 }
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <memory>
 
 #include "command_line.h"
 #include "core/limits.h"
+#include "drawer.h"
 #include "picture_library.h"
-#include "raster/internal_rasterizer.h"
 #include "session.h"
 
 namespace farop::app {
@@ -16,28 +19,22 @@ struct RenderOptions {
   ViewOptions view;
   SceneOptions scene;
   DrawingOptions drawing;
+  RasterizerOptions rasterizer;
 };
 
-/// Draws nothing: the geometry stage alone, for timing.
-class NullRasterizer : public ScreenPolygonSink {
- public:
-  void begin_frame(const ScreenFrame&) override {}
-  void polygons(const ScreenPolygonBatch&) override {}
-  void end_frame() override {}
-};
-
-/// A good picture: window edges mapped, 8 sub-pixel bits, 24 bits of depth.
-Viewport picture_defaults() {
+/// The internal rasterizer's default is a good picture: window edges mapped, 8 sub-pixel bits, 24 bits of
+/// depth. Others get the numbers of the flat file.
+Viewport viewport_defaults(RasterizerKind kind) {
   Viewport viewport;
+  if (kind != RasterizerKind::internal) return viewport;
   viewport.resolution.z = std::int64_t{1} << 24;
   viewport.pixel_fit = PixelFit::edges;
   viewport.subpixel_bits = 8;
   return viewport;
 }
 
-void write_picture(Session& session, InternalRasterizer& rasterizer, const std::string& output,
+void write_picture(Session& session, const Framebuffer& picture, const std::string& output,
                    const std::string& depth_file) {
-  const Framebuffer picture = rasterizer.take();
   const TimedSlice slice(session.clocks.write);
   write_picture_file(output, picture);
   session.report.outputs.push_back(output);
@@ -46,50 +43,58 @@ void write_picture(Session& session, InternalRasterizer& rasterizer, const std::
   session.report.outputs.push_back(depth_file);
 }
 
+/// Users' rasterizers get a frame of this size, which the interface limits.
+void check_sampled_size(RasterizerKind kind, const Resolution& r, int samples) {
+  if (kind == RasterizerKind::internal || std::max(r.x, r.y) * samples <= k_max_resolution) return;
+  throw Error(ExitStatus::usage,
+              fmt::format("--samples {} of {} x {} pixels: the frame would be larger than {} pixels", samples,
+                          r.x, r.y, k_max_resolution),
+              "use fewer --samples or a smaller --resolution");
+}
+
 void run(Session& session, const RenderOptions& options) {
-  const bool null = options.drawing.rasterizer == "null";
-  const DrawMode mode = draw_mode(options.drawing.mode);
-  if (null && (!options.output.empty() || !options.drawing.depth_file.empty())) {
+  const ChosenRasterizer chosen = choose_rasterizer(options.rasterizer);
+  const bool null = chosen.kind == RasterizerKind::null;
+  DrawerOptions drawing;
+  drawing.mode = draw_mode(options.drawing.mode);
+  drawing.keep_depth = !options.drawing.depth_file.empty();
+  if (null && (!options.output.empty() || drawing.keep_depth)) {
     throw Error(ExitStatus::usage, "the rasterizer 'null' draws nothing, so there is no picture to write",
                 "leave out -o and --depth, or use --rasterizer internal");
   }
-  if (null && (mode == DrawMode::line || mode == DrawMode::phong)) {
-    throw Error(ExitStatus::usage, "modes line and phong exist in the internal rasterizer only");
-  }
+  check_drawing(chosen, drawing);
   const std::string output = null ? "" : output_path(options.output, options.input.files, ".ppm");
-  if (!options.drawing.depth_file.empty()) {
+  if (drawing.keep_depth) {
     picture_library().check_depth_path(output_path(options.drawing.depth_file, options.input.files, ""));
   }
   if (!null) check_picture_path(output);
-  int samples = options.drawing.samples;
-  if (mode == DrawMode::line && samples > 1) {
+  drawing.samples = options.drawing.samples;
+  if (drawing.mode == DrawMode::line && drawing.samples > 1) {
     session.console.notice("--samples is ignored in line mode");
-    samples = 1;
+    drawing.samples = 1;
   }
 
   load_inputs(session, options.input);
-  const LoadedView view =
-      *finish_loading(session, options.view, options.scene, picture_defaults(), samples, true);
-  const GeometryOptions geometry = geometry_options(session, options.scene, mode == DrawMode::flat);
-  prepare_drawing(session, view, geometry, samples);
-  session.report.raster = {options.drawing.rasterizer, options.drawing.mode, samples};
+  const LoadedView view = *finish_loading(session, options.view, options.scene,
+                                          viewport_defaults(chosen.kind), drawing.samples, true);
+  check_sampled_size(chosen.kind, view.viewport.resolution, drawing.samples);
+  const bool flat = drawing.mode == DrawMode::flat;
+  const GeometryOptions geometry = geometry_options(session, options.scene, flat);
+  prepare_drawing(session, view, geometry, drawing.samples);
   if (!null) session.console.log("Image file to be created: '{}'", output);
   session.console.log("Render Mode: {}", options.drawing.mode);
-  if (null) {
-    NullRasterizer nothing;
-    draw(session, geometry, nothing);
-  } else {
-    InternalRasterizerOptions drawing;
-    drawing.mode = mode;
-    drawing.samples = samples;
-    drawing.background = session.scene.view.background.value_or(Rgb{});
-    drawing.keep_depth = !options.drawing.depth_file.empty();
-    drawing.lights_eye = session.report.setup->lights_eye;
-    InternalRasterizer rasterizer(drawing);
-    draw(session, geometry, rasterizer);
-    write_picture(session, rasterizer, output, options.drawing.depth_file);
-  }
-  summarize_drawing(session, output);
+  // The geometry stage gives a polygon one colour already.
+  if (flat && chosen.kind != RasterizerKind::internal) drawing.mode = DrawMode::gouraud;
+  drawing.background = session.scene.view.background.value_or(Rgb{});
+  drawing.lights_eye = session.report.setup->lights_eye;
+  const std::unique_ptr<Drawer> drawer = make_drawer(session, chosen, options.rasterizer, drawing);
+  session.report.raster = {drawer->name(), options.drawing.mode, drawing.samples};
+  draw(session, geometry, drawer->sink());
+  const std::optional<Framebuffer> picture = drawer->take();
+  if (picture) write_picture(session, *picture, output, options.drawing.depth_file);
+  if (!picture && !null)
+    session.console.notice("the rasterizer draws elsewhere: there is no picture to write");
+  summarize_drawing(session, picture ? output : "");
 }
 
 void add_drawing_options(CLI::App& command, DrawingOptions& options) {
@@ -103,10 +108,6 @@ void add_drawing_options(CLI::App& command, DrawingOptions& options) {
       ->check(CLI::Range(1, k_max_samples))
       ->type_name("A")
       ->group("Drawing");
-  command.add_option("--rasterizer", options.rasterizer, "null: geometry stage only, for timing [internal]")
-      ->check(CLI::IsMember({"internal", "null"}))
-      ->type_name("internal|null")
-      ->group("Drawing");
   command.add_option("--depth", options.depth_file, "write depths too, .exr or .tif (integer z as float)")
       ->type_name("FILE")
       ->group("Output");
@@ -117,7 +118,7 @@ void add_drawing_options(CLI::App& command, DrawingOptions& options) {
 void add_render(CommandLine& line) {
   const auto options = std::make_shared<RenderOptions>();
   CLI::App& command = line.add_command(
-      "render", "scene(s) -> picture, by the internal rasterizer",
+      "render", "scene(s) -> picture, by the internal rasterizer or yours",
       {{"farop render gears.nff -o gears.png --samples 4", "an anti-aliased picture of a scene"},
        {"farop render gears.nff -o wire.ppm --mode line --resolution 640x480", "its edges, in another size"}},
       [options](Session& session) { run(session, *options); });
@@ -130,6 +131,7 @@ void add_render(CommandLine& line) {
       ->group("Geometry");
   add_light_option(command, options->scene);
   add_drawing_options(command, options->drawing);
+  add_rasterizer_options(command, options->rasterizer);
   line.add_report_options(command);
 }
 

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Polygons of a frame in, a picture out: the internal rasterizer, a user's library, or a user's program.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/color.h"
+#include "core/framebuffer.h"
+#include "core/screen_polygon.h"
+#include "raster/internal_rasterizer.h"
+#include "rasterizer_options.h"
+
+namespace farop::app {
+
+class Session;
+
+class Drawer {
+ public:
+  virtual ~Drawer() = default;
+  virtual ScreenPolygonSink& sink() = 0;
+  /// As the statistics name it.
+  virtual std::string name() const = 0;
+  /// The finished picture; nothing from one that draws nothing, or elsewhere.
+  virtual std::optional<Framebuffer> take() = 0;
+};
+
+/// What a picture is drawn with. `flat`: each polygon in its first corner's colour (the geometry stage has
+/// done it already; a flat file need not have).
+struct DrawerOptions {
+  DrawMode mode = DrawMode::gouraud;
+  int samples = 1;
+  Rgb background;
+  bool keep_depth = false;
+  std::vector<PointLight> lights_eye;
+};
+
+/// Throws Error(usage) for what the chosen rasterizer cannot do: before any input is read.
+void check_drawing(const ChosenRasterizer& rasterizer, const DrawerOptions& options);
+
+/// Loads or prepares the rasterizer. Throws Error(plugin) when it cannot be loaded.
+std::unique_ptr<Drawer> make_drawer(Session& session, const ChosenRasterizer& rasterizer,
+                                    const RasterizerOptions& how, const DrawerOptions& options);
+
+}  // namespace farop::app

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Rasterizers of users, as they name and run them.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "support/shell.h"
+
+namespace farop::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* const k_background = " --background 0.078 0.361 0.753 ";  // of SPD gears: a flat file has none
+
+class Rasterizers : public testing::Test {
+ protected:
+  Outcome run(const std::string& command, int status = 0) {
+    Outcome outcome = shell(folder_, command);
+    EXPECT_EQ(outcome.status, status) << command << "\n" << outcome.out << outcome.err;
+    return outcome;
+  }
+  void make_scene() {
+    run("farop spd gears --size 2 -o gears.nff -q && farop export gears.nff -o gears.scr --resolution "
+        "257x193 -q");
+  }
+  void expect_message(const std::string& command, int status, const std::string& message) {
+    const Outcome outcome = run(command, status);
+    EXPECT_NE(outcome.err.find(message), std::string::npos) << command << "\n" << outcome.err;
+    EXPECT_FALSE(fs::exists(folder_ / "out.ppm")) << command;
+  }
+  TemporaryFolder folder_;
+};
+
+class ShippedRasterizer : public Rasterizers, public testing::WithParamInterface<const char*> {};
+
+TEST_P(ShippedRasterizer, DrawsWhatTheInternalOneDraws) {
+  make_scene();
+  const std::string by = std::string(" --rasterizer ") + GetParam() + " ";
+  run("farop raster gears.scr -o theirs.ppm -q" + std::string(k_background));
+  run("farop raster gears.scr -o mine.ppm -q" + by + k_background);
+  run("farop compare mine.ppm theirs.ppm --fail 0.005");  // one step of 8 bits
+  run("farop render gears.nff -o rendered.ppm --resolution 257x193 -q" + by + "&& cmp rendered.ppm mine.ppm");
+  run("farop raster - < gears.scr -o piped.ppm -q" + by + k_background + "&& cmp piped.ppm mine.ppm");
+}
+
+TEST_P(ShippedRasterizer, DrawsFlatPolygonsInTheColourOfTheirFirstCorner) {
+  run("farop spd teapot --size 3 -o pot.nff -q && farop export pot.nff -o pot.scr --resolution 120x90 -q");
+  const std::string by = std::string(" --rasterizer ") + GetParam() + " ";
+  run("farop raster pot.scr -o theirs.ppm --mode flat -q");
+  run("farop raster pot.scr -o mine.ppm --mode flat -q" + by);
+  run("farop compare mine.ppm theirs.ppm --fail 0.005");
+  run("farop raster pot.scr -o smooth.ppm -q" + by + "; farop compare mine.ppm smooth.ppm --fail 0.005", 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ShippedRasterizer, testing::Values("trapezoid", "scanline_fill"));
+
+TEST_F(Rasterizers, AreListedWithWhatTheySayOfThemselves) {
+  const std::string list = run("farop plugins").out;
+  EXPECT_NE(list.find("trapezoid       z-buffer by trapezoids"), std::string::npos) << list;
+  EXPECT_NE(list.find("lib/farop/plugins/scanline_fill.so"), std::string::npos) << list;
+  run("test -f \"$(farop plugins --abi | tail -1)/farop/rasterizer.h\"");
+}
+
+TEST_F(Rasterizers, AreFoundInFoldersBeforeTheInstalledOnes) {
+  make_scene();
+  const std::string copy =
+      "mkdir a b; so=$(farop plugins | grep -o '/.*trapezoid.so'); cp $so a/mine.so; cp $so b/libyours.so; ";
+  run(copy + "FAROP_PLUGIN_PATH=/nowhere::b farop raster gears.scr -o out.ppm -I a --rasterizer mine");
+  run("FAROP_PLUGIN_PATH=/nowhere::b farop raster gears.scr -o out.ppm --rasterizer yours");
+  run("cd a; farop raster ../gears.scr -o out.ppm --rasterizer mine.so");
+  const std::string list = run("farop plugins -I a -I b").out;
+  EXPECT_LT(list.find("mine "), list.find("yours ")) << list;
+  EXPECT_LT(list.find("yours "), list.find("scanline_fill ")) << list;
+}
+
+TEST_F(Rasterizers, ThatCannotBeHadAreNamedWithARemedy) {
+  make_scene();
+  run("echo text > text.so");
+  expect_message("farop raster gears.scr -o out.ppm --rasterizer trapzoid", 3, "did you mean 'trapezoid'?");
+  expect_message("farop render gears.nff -o out.ppm --rasterizer ./none.so", 3,
+                 "./none.so: cannot be opened");
+  expect_message("farop render gears.nff -o out.ppm --rasterizer ./text.so", 3, "is not a shared library");
+  expect_message("farop render none.nff -o out.ppm --rasterizer ./text.so", 3,
+                 "is not a shared library");  // first
+  expect_message("farop render gears.nff -o out.ppm --rasterizer trapezoid --cmd 'x {flat} {ppm}'", 2,
+                 "both given");
+  expect_message("farop render gears.nff -o out.ppm --rasterizer trapezoid --mode phong", 2,
+                 "internal rasterizer only");
+  expect_message("farop render gears.nff -o out.ppm --rasterizer trapezoid --mode line", 2,
+                 "internal rasterizer only");
+  expect_message("farop render gears.nff -o out.ppm --rasterizer trapezoid --depth d.exr", 2, "--depth");
+  expect_message("farop render gears.nff -o out.ppm --rasterizer trapezoid --plugin-option novalue", 2,
+                 "KEY=VALUE");
+  expect_message(
+      "farop render gears.nff -o out.ppm --rasterizer trapezoid --resolution 30000x30000 --samples 2", 2,
+      "larger than 32767");
+}
+
+TEST_F(Rasterizers, SeeNothingOfABadFlatFile) {
+  make_scene();
+  run("head -n 100 gears.scr > cut.scr");
+  expect_message("farop raster cut.scr -o out.ppm --rasterizer trapezoid", 1, "cut.scr:");
+}
+
+TEST_F(Rasterizers, MayBeProgramsThatReadAFlatFileAndWriteAPpm) {
+  make_scene();
+  run("farop raster gears.scr -o theirs.ppm -q" + std::string(k_background));
+  const std::string draw = std::string("farop raster {flat} -o {ppm} -q") + k_background;
+  run("farop render gears.nff -o mine.ppm --resolution 257x193 -q --cmd '" + draw +
+      "' && cmp mine.ppm theirs.ppm");
+  run("farop raster gears.scr -o mine.ppm -q --cmd '" + draw + "' && cmp mine.ppm theirs.ppm");
+  // What it prints does not mix with the picture on standard output.
+  run("farop raster gears.scr -o - -q --cmd 'echo noise; " + draw +
+      "' 2> said > mine.ppm && cmp mine.ppm theirs.ppm");
+  EXPECT_EQ(read_file(folder_ / "said"), "noise\n");
+}
+
+TEST_F(Rasterizers, ThatAreProgramsAreBlamedInTheirOwnWords) {
+  make_scene();
+  const auto by = [](const std::string& command) {
+    return "farop raster gears.scr -o out.ppm --cmd '" + command + "'";
+  };
+  expect_message(by("true {flat}"), 2, "does not say where {ppm} goes");
+  expect_message(by("exit 7; {flat} {ppm}"), 3, "ended with exit status 7");
+  expect_message(by("kill -SEGV $$; {flat} {ppm}"), 3, "killed by signal 11 (Segmentation fault)");
+  expect_message(by("nosuchprogram {flat} {ppm}"), 3, "the shell did not find it");
+  expect_message(by("true {flat} {ppm}"), 3, "picture.ppm: cannot be opened");
+  expect_message(by("echo P3 1 1 255 0 0 0 > {ppm}; true {flat}"), 3, "P3 is the text form");
+  expect_message(by("printf \"P6 2 1 255\\nabcdef\" > {ppm}; true {flat}"), 3,
+                 "has 2 x 1 pixels, expected 257 x 193");
+  run("ls -d /tmp/farop-[A-Za-z0-9]*[A-Za-z0-9]/polygons.scr", 2);  // nothing is left behind
+}
+
+}  // namespace
+}  // namespace farop::test
