@@ -3,14 +3,19 @@
 
 namespace farop {
 
-void PolygonList::begin_polygon(bool has_given_normals) {
+void PolygonRecorder::begin_polygon(bool has_given_normals) {
   open_ = records_.size();
-  records_.push_back(has_given_normals ? k_given_normals : 0);
+  records_.push_back(has_given_normals ? PolygonList::k_given_normals : 0);
 }
 
-void PolygonList::end_polygon() {
-  records_[open_] |= open_corners();
+void PolygonRecorder::end_polygon() {
+  records_[open_] |= static_cast<std::uint32_t>(records_.size() - open_ - 1);
   ++count_;
+}
+
+PolygonList PolygonRecorder::take() {
+  open_ = 0;
+  return PolygonList(records_.move_to_vector(), std::exchange(count_, 0));
 }
 
 std::size_t Surface::memory_bytes() const {

@@ -6,8 +6,10 @@
 #include <cstdint>
 #include <iterator>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "core/chunked_array.h"
 #include "core/math.h"
 #include "shading/material.h"
 
@@ -50,31 +52,48 @@ class PolygonList {
     const std::uint32_t* at_ = nullptr;
   };
 
+  PolygonList() = default;
+  /// `records` as PolygonRecorder makes them, `count` polygons.
+  PolygonList(std::vector<std::uint32_t> records, std::uint64_t count)
+      : records_(std::move(records)), count_(count) {}
+
   Iterator begin() const { return Iterator(records_.data()); }
   Iterator end() const { return Iterator(records_.data() + records_.size()); }
   std::uint64_t size() const { return count_; }
   bool empty() const { return count_ == 0; }
 
-  /// Opens a record; its corners follow with add_corner(), then end_polygon().
-  void begin_polygon(bool has_given_normals);
-  void add_corner(std::uint32_t vertex) { records_.push_back(vertex); }
-  void end_polygon();
-  /// Drops the corners of the record that is open.
-  void cancel_polygon() { records_.resize(open_); }
-  std::uint32_t open_corners() const { return static_cast<std::uint32_t>(records_.size() - open_ - 1); }
-
-  void shrink_to_fit() { records_.shrink_to_fit(); }
   std::size_t memory_bytes() const { return records_.capacity() * sizeof(std::uint32_t); }
 
   friend bool operator==(const PolygonList&, const PolygonList&) = default;
 
  private:
+  friend class PolygonRecorder;
   static constexpr std::uint32_t k_given_normals = 0x80000000u;
   static constexpr std::uint32_t k_count_mask = 0x3FFFFFFFu;
 
   std::vector<std::uint32_t> records_;
   std::uint64_t count_ = 0;
-  std::size_t open_ = 0;
+};
+
+/// Writes the records of a PolygonList, without ever copying them while they grow.
+class PolygonRecorder {
+ public:
+  /// Opens a record; its corners follow with add_corner(), then end_polygon().
+  void begin_polygon(bool has_given_normals);
+  void add_corner(std::uint32_t vertex) { records_.push_back(vertex); }
+  void end_polygon();
+  /// Drops the record that is open, with its corners.
+  void cancel_polygon() { records_.truncate(open_); }
+
+  std::uint64_t size() const { return count_; }
+  bool empty() const { return count_ == 0; }
+  /// The finished list; the recorder is empty afterwards.
+  PolygonList take();
+
+ private:
+  ChunkedArray<std::uint32_t> records_;
+  std::uint64_t count_ = 0;
+  std::size_t open_ = 0;  ///< where the record that was opened last begins
 };
 
 /// NFF `s`. Radius > 0; inside_visible: only the inside is seen (NFF: a negative radius).

@@ -11,30 +11,36 @@ namespace farop {
 
 /// Two corners become one vertex when position and given normal are equal bit for bit (so 0 and -0 differ, as
 /// read); a corner with a given normal never joins one without. Vertices are numbered in order of first use.
-/// Memory: 4 to 8 bytes a vertex for the hash table on top of the surface, until take().
+/// Memory: 8 to 16 bytes a vertex for the hash table on top of the surface, until take(); nothing is copied
+/// while the surface grows, whatever its size.
 class SurfaceBuilder {
  public:
-  explicit SurfaceBuilder(const Material& material = {}) { surface_.material = material; }
+  explicit SurfaceBuilder(const Material& material = {}) : material_(material) {}
 
   void begin_polygon(bool has_given_normals);
   void add_corner(const V3d& position);
   void add_corner(const V3d& position, const V3d& normal);
-  void end_polygon() { surface_.polygons.end_polygon(); }
+  void end_polygon() { polygons_.end_polygon(); }
   /// Takes back the open polygon; vertices that only it used stay, unused (the caller skips polygons before
   /// adding corners wherever it can).
-  void cancel_polygon() { surface_.polygons.cancel_polygon(); }
+  void cancel_polygon() { polygons_.cancel_polygon(); }
   void add(const Sphere& sphere);
   void add(const Cone& cone);
 
-  bool empty() const { return surface_.polygons.empty() && surface_.curved.empty(); }
-  /// The finished surface, its memory trimmed; the builder is empty afterwards and keeps its table for reuse.
+  bool empty() const { return polygons_.empty() && curved_.empty(); }
+  /// The finished surface, its memory exactly what it holds; the builder is empty afterwards and keeps its
+  /// table for reuse.
   Surface take(const Material& next_material = {});
 
  private:
   std::uint32_t vertex(const V3d& position, const V3d& normal, bool given);
   void grow();
 
-  Surface surface_;
+  Material material_;
+  ChunkedArray<V3d> positions_;
+  ChunkedArray<V3d> normals_;  ///< empty while no polygon has given ones
+  PolygonRecorder polygons_;
+  std::vector<CurvedPrimitive> curved_;
   std::vector<std::uint32_t> table_;  ///< open addressing; vertex index + 1, 0 = free
   std::vector<bool> given_;           ///< per vertex: has a given normal; empty while all vertices agree
   bool any_given_ = false;

@@ -85,13 +85,15 @@ TEST(SurfaceBuilder, StartsAfreshAfterTake) {
 }
 
 TEST(PolygonList, CancelledPolygonsLeaveNoTrace) {
-  PolygonList list;
-  list.begin_polygon(true);
-  list.add_corner(5);
-  list.cancel_polygon();
-  list.begin_polygon(false);
-  for (std::uint32_t i = 0; i < 4; ++i) list.add_corner(i);
-  list.end_polygon();
+  PolygonRecorder recorder;
+  recorder.begin_polygon(true);
+  recorder.add_corner(5);
+  recorder.cancel_polygon();
+  recorder.begin_polygon(false);
+  for (std::uint32_t i = 0; i < 4; ++i) recorder.add_corner(i);
+  recorder.end_polygon();
+  const PolygonList list = recorder.take();
+  EXPECT_TRUE(recorder.empty());
   ASSERT_EQ(list.size(), 1u);
   const PolygonView p = *list.begin();
   EXPECT_FALSE(p.has_given_normals);
