@@ -1,0 +1,808 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// solids - a spanning scan-line algorithm, and what it gains from knowing that it draws solids.
+//
+// The algorithm of M. Lenz Cesar and M. C. Ferreira de Oliveira (ICMSC-USP), "Um algoritmo scan-line para
+// sólidos", 1995, which builds on J. D. Foley et al., Computer Graphics: Principles and Practice, 2nd ed.,
+// Addison-Wesley 1990, section 15.6. The option `variant` chooses what the paper's table compares:
+//
+//   1  Any polygons. Every one brings its own edges. A line is cut into spans where a segment ends and where
+//      two segments cross; in every span with several polygons their depths are compared.
+//   2  Solids. Every edge is entered once, with the two polygons that share it: half the edge table. Where
+//      the visible polygon ends on such an edge its neighbour goes on, and a hidden one is followed by a
+//      hidden one: no depths are compared. Faces of a solid do not cross: spans are cut at end points only.
+//   3  As 2, and the back faces of solids never enter the tables. (The default. FAROP itself drops back faces
+//      unless it is run with --two-sided; then only do 2 and 3 differ.)
+//
+// All three run through the same loops below, and draw the same picture.
+//
+// What is a solid: a surface whose edges all lie between two faces that run along it in opposite directions.
+// It is told from the vertex ids. Everything else (open surfaces, surfaces cut open by the window, flat
+// files, which have no ids) is drawn as 1 does, and so is every span in which more than one solid, or a solid
+// and something else, lie behind each other. That a closed surface does not cut through itself is taken on
+// trust: `farop table solids` proves it first.
+//
+//   edge table:    a bucket for every line, with the edges that begin there, from left to right
+//   active edges:  the edges that cross the current line, from left to right
+//   polygon table: the polygons, with a flag that says whether the line is inside
+//
+// Only whole numbers are used from edge to edge, span to span and pixel to pixel; the slope of a segment,
+// once a line and only when it is asked for, is computed in floating point.
+//
+// The option statistics=1 logs a line at the end of every frame:
+//   edge_table         edges entered
+//   active_edges_max   on the line that has most, and
+//   active_edges_sum   on all lines together
+//   spans              pieces that lines were cut into (after what hides what was decided, neighbouring
+//   pieces
+//                      of one polygon are joined)
+//   depth_comparisons  of two polygons at one pixel
+//   pixels             drawn
+//   build_seconds      finding solids and neighbours, making and sorting the edge table
+//   scan_seconds       active edges, spans and what is visible in them
+//   pixel_seconds      writing the pixels. It is a pass of its own, so measuring it costs the others nothing.
+// Storing the polygons as they come is in none of the times, nor is clearing the frame, which FAROP does.
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <new>
+#include <stdexcept>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "farop/rasterizer.h"
+
+namespace {
+
+/// What ends a call with a status of its own.
+struct Refusal : std::runtime_error {
+  Refusal(farop_status the_status, const char* why) : std::runtime_error(why), status(the_status) {}
+  farop_status status;
+};
+
+constexpr std::uint32_t k_none = 0xFFFFFFFFu;
+
+/// An edge that is not horizontal, and the two polygons it belongs to (or one, and k_none). It crosses the
+/// current line at x = column - excess / denominator, 0 <= excess < denominator, so `column` is the first
+/// pixel that is not left of it. Frames have at most 32767 pixels a side and 8 sub-pixel bits: the
+/// denominator stays below 2^31.
+struct Edge {
+  std::int32_t column = 0, excess = 0, denominator = 1;
+  std::int32_t step = 0, excess_step = 0;  ///< a line up, x grows by step + excess_step / denominator
+  std::int32_t end_line = 0;               ///< the first line above it
+  std::uint32_t polygon[2] = {k_none, k_none};
+  std::uint32_t low = 0, high = 0;  ///< its ends, in the list of all corners
+
+  void step_up() {
+    column += step;
+    excess -= excess_step;
+    if (excess < 0) excess += denominator, ++column;
+  }
+};
+
+/// From left to right.
+bool before(const Edge& a, const Edge& b) {
+  if (a.column != b.column) return a.column < b.column;
+  return std::int64_t{a.excess} * b.denominator > std::int64_t{b.excess} * a.denominator;
+}
+
+/// Depths are compared in units of 1/256: fine enough to decide what whole numbers leave open, and coarse
+/// enough that the last bits of the arithmetic do not. Of equals the first drawn is in front.
+constexpr int k_depth_bits = 28;  ///< fraction of Polygon::z and z_step: 2^30 depths fit, and their slopes
+constexpr int k_compare_bits = 8;
+constexpr int k_color_bits = 22;  ///< fraction of colours: 255 fits 32 bits, 32767 steps lose 1/100
+
+struct Polygon {
+  std::uint32_t first_corner = 0, corner_count = 0;
+  std::uint32_t surface = 0;
+  bool back_facing = false, one_color = false;
+  // Of the current line:
+  bool in = false;                 ///< the sweep is inside
+  bool slope_known = false;        ///< z, z_step
+  std::uint32_t place = 0;         ///< in the list of those that are in
+  std::uint32_t candidate_at = 0;  ///< column number, see Solids::candidates_
+  std::uint32_t left = 0;          ///< crossing at which it was entered
+  std::int32_t column = 0;         ///< there
+  std::int64_t z = 0, z_step = 0;  ///< depth at `column`, from pixel to pixel
+};
+
+struct Surface {
+  std::uint64_t balance = 0;  ///< see find_solids()
+  bool solid = true;
+  std::uint32_t in = 0;  ///< how many of its polygons the sweep is inside of
+};
+
+/// Pixels first .. end - 1 of a line.
+struct Span {
+  std::int32_t first = 0, end = 0;
+  std::uint32_t polygon = 0;
+  std::uint32_t ramp = k_none;  ///< into the list of ramps, unless the polygon has one colour
+};
+
+/// R, G, B at the first pixel of a span, and from pixel to pixel. Unsigned: past the last pixel they may
+/// wrap.
+struct Ramp {
+  std::uint32_t color[3], step[3];
+};
+
+/// A number that depends on all bits of two ids. (The finisher of S. Vigna's SplitMix64.)
+std::uint64_t mixed(std::uint32_t a, std::uint32_t b) {
+  std::uint64_t h = (std::uint64_t{a} << 32 | b) + 0x9E3779B97F4A7C15u;
+  h = (h ^ (h >> 30)) * 0xBF58476D1CE4E5B9u;
+  h = (h ^ (h >> 27)) * 0x94D049BB133111EBu;
+  return h ^ (h >> 31);
+}
+
+struct Statistics {
+  std::uint64_t active_edges_max = 0, active_edges_sum = 0, spans = 0, depth_comparisons = 0, pixels = 0;
+};
+
+class Solids {
+ public:
+  Solids(const farop_host* host, int variant, bool log_statistics)
+      : host_(host), variant_(variant), log_statistics_(log_statistics) {}
+
+  void begin(const farop_frame& frame);
+  void store(const farop_polygon& polygon);
+  void draw();
+  const farop_host* host() const { return host_; }
+
+ private:
+  /// Of a polygon's segment on the current line: see ends().
+  struct Ends {
+    double left = 0, right = 0, to_first = 0, width = 1;
+    std::int32_t pixels = 0;
+  };
+  /// Of the hash table that finds edges by their ids.
+  struct Slot {
+    std::uint32_t low_id, high_id, surface, edge;
+  };
+
+  // the tables
+  std::uint32_t number_of_surface(std::uint32_t object_id, std::uint32_t surface_id);
+  void find_solids();
+  void build_edge_table();
+  void enter_polygon(std::uint32_t polygon);
+  bool enter_second_polygon(std::uint32_t low, std::uint32_t high, std::uint32_t polygon);
+  void enter_edge(std::uint32_t low, std::uint32_t high, std::int32_t first_line, std::int32_t end_line,
+                  std::uint32_t polygon);
+  void sort_into_buckets();
+
+  // a line
+  void next_active_edges();
+  void sweep();
+  void cross(std::uint32_t active);
+  void enter(std::uint32_t polygon, std::uint32_t crossing);
+  void leave(std::uint32_t polygon);
+  void make_candidate(std::uint32_t polygon);
+  bool must_be_careful() const;
+  void decide(std::int32_t column);
+  std::uint32_t nearest_at(std::int32_t column);
+  void emit_careful(std::int32_t column, std::int32_t end);
+  void emit(std::int32_t column, std::int32_t end);
+
+  // depths and colours on it
+  void pair_crossings();
+  template <class Attribute>
+  Ends ends(const Polygon& polygon, const Attribute& attribute);
+  std::int64_t depth(std::uint32_t polygon, std::int32_t column);
+  bool in_front(std::uint32_t a, std::uint32_t b, std::int32_t column);
+  std::uint32_t make_ramp(const Polygon& polygon, std::int32_t column);
+
+  void write_pixels();
+  void report(double build, double scan, double pixel) const;
+
+  const farop_host* host_;
+  int variant_;
+  bool log_statistics_;
+  Statistics count_;
+
+  const farop_frame* frame_ = nullptr;
+  std::vector<farop_vertex> corners_;
+  std::vector<std::uint32_t> ids_;  ///< of the corners
+  std::vector<Polygon> polygons_;
+  std::vector<Surface> surfaces_;
+  std::unordered_map<std::uint64_t, std::uint32_t> surface_number_;  ///< both ids -> into surfaces_
+  std::uint64_t last_surface_ = 0;
+  std::uint32_t last_surface_number_ = 0;
+  bool one_solid_ = false;  ///< everything in the tables is one
+
+  std::vector<Edge> edge_table_, sorted_;  ///< by bucket once sorted
+  std::vector<std::int32_t> first_line_;   ///< of the edges, before they are sorted
+  std::vector<std::uint32_t> bucket_;      ///< line -> its first edge
+  std::vector<Slot> slots_;                ///< hash table: ids -> edge
+
+  // The current line.
+  std::int32_t line_ = 0;
+  std::vector<Edge> active_;
+  std::vector<std::uint32_t> in_;          ///< polygons whose flag is set
+  std::vector<std::uint32_t> candidates_;  ///< opened at this column: may be in front of what was visible
+  std::uint32_t visible_ = k_none;
+  std::uint32_t column_number_ = 0;  ///< counts the columns of the frame at which edges cross
+  std::uint32_t solids_in_ = 0, others_in_ = 0;
+  bool paired_ = false;
+  /// Crossing 2 k + side (active edge k, its polygon `side`) -> the crossing at which that polygon ends.
+  std::vector<std::uint32_t> right_of_, pending_;
+
+  std::vector<Span> spans_;
+  std::vector<std::size_t> line_end_;  ///< line -> end of its spans
+  std::vector<Ramp> ramps_;
+  std::size_t line_begin_ = 0;        ///< of the current line, in spans_
+  std::uint32_t last_left_ = k_none;  ///< crossing at which the polygon of the last span was entered
+};
+
+// ---- storing
+// --------------------------------------------------------------------------------------------------------
+
+void Solids::begin(const farop_frame& frame) {
+  frame_ = &frame;
+  corners_.clear();
+  ids_.clear();
+  polygons_.clear();
+  surfaces_.clear();
+  surface_number_.clear();
+}
+
+void Solids::store(const farop_polygon& polygon) {
+  const std::int32_t right = (frame_->width - 1) << frame_->subpixel_bits;
+  const std::int32_t top = (frame_->height - 1) << frame_->subpixel_bits;
+  Polygon stored;
+  stored.first_corner = static_cast<std::uint32_t>(corners_.size());
+  stored.corner_count = polygon.vertex_count;
+  stored.back_facing = (polygon.flags & FAROP_POLYGON_BACK_FACING) != 0;
+  stored.one_color = true;
+  const farop_vertex* const v = polygon.vertices;
+  for (std::uint32_t i = 0; i < polygon.vertex_count; ++i) {
+    if (v[i].x < 0 || v[i].x > right || v[i].y < 0 || v[i].y > top) {
+      throw Refusal(FAROP_E_INVALID, "solids: a corner outside the frame");
+    }
+    stored.one_color = stored.one_color && v[i].r == v[0].r && v[i].g == v[0].g && v[i].b == v[0].b;
+  }
+  corners_.insert(corners_.end(), v, v + polygon.vertex_count);
+  if (variant_ >= 2) {
+    if (polygon.vertex_ids != nullptr) {
+      ids_.insert(ids_.end(), polygon.vertex_ids, polygon.vertex_ids + polygon.vertex_count);
+    } else {
+      ids_.resize(corners_.size(), FAROP_NO_VERTEX_ID);
+    }
+    stored.surface = number_of_surface(polygon.object_id, polygon.surface_id);
+  }
+  polygons_.push_back(stored);
+}
+
+// Polygons of a surface mostly come one after the other.
+std::uint32_t Solids::number_of_surface(std::uint32_t object_id, std::uint32_t surface_id) {
+  const std::uint64_t key = std::uint64_t{object_id} << 32 | surface_id;
+  if (!surfaces_.empty() && key == last_surface_) return last_surface_number_;
+  const auto found = surface_number_.try_emplace(key, static_cast<std::uint32_t>(surfaces_.size()));
+  if (found.second) surfaces_.emplace_back();
+  last_surface_ = key, last_surface_number_ = found.first->second;
+  return last_surface_number_;
+}
+
+// ---- building the tables
+// --------------------------------------------------------------------------------------------
+
+// A surface is closed and turns the same way everywhere if every edge is walked once in each direction. To
+// see that, edges need not be found again: give each a random number, add it where the edge is walked from
+// the smaller id to the larger one and subtract it where it is walked back. Then the sum is zero; for all
+// other surfaces it is zero with a chance of 2^-64. (An edge that four faces share is found later, as the
+// third polygon comes to it.)
+void Solids::find_solids() {
+  for (const Polygon& polygon : polygons_) {
+    Surface& surface = surfaces_[polygon.surface];
+    const std::uint32_t* const ids = &ids_[polygon.first_corner];
+    std::uint32_t from = ids[polygon.corner_count - 1];
+    for (std::uint32_t i = 0; i < polygon.corner_count; ++i) {
+      const std::uint32_t to = ids[i];
+      if (to == FAROP_NO_VERTEX_ID) surface.solid = false;
+      if (from < to) surface.balance += mixed(from, to);
+      if (from > to) surface.balance -= mixed(to, from);
+      from = to;
+    }
+  }
+  for (Surface& surface : surfaces_) surface.solid = surface.solid && surface.balance == 0;
+}
+
+void Solids::build_edge_table() {
+  edge_table_.clear();
+  first_line_.clear();
+  if (variant_ >= 2) {
+    find_solids();
+    std::size_t slots = 16;
+    while (slots < corners_.size()) slots *= 2;  // edges are half as many: at most half full
+    slots_.assign(slots, {0, 0, 0, k_none});
+  }
+  one_solid_ = variant_ >= 2 && surfaces_.size() == 1 && surfaces_[0].solid;
+  for (std::uint32_t p = 0; p < polygons_.size(); ++p) {
+    if (variant_ == 3 && polygons_[p].back_facing && surfaces_[polygons_[p].surface].solid) continue;
+    enter_polygon(p);
+  }
+  one_solid_ = one_solid_ && surfaces_[0].solid;
+  sort_into_buckets();
+}
+
+// An edge lives on the lines y_low <= line < y_high, so horizontal edges live on none: the rule "bottom edges
+// belong to the polygon, top ones do not". That "left ones do, right ones do not" follows from Edge::column.
+void Solids::enter_polygon(std::uint32_t polygon) {
+  const std::uint32_t first = polygons_[polygon].first_corner, count = polygons_[polygon].corner_count;
+  const int bits = frame_->subpixel_bits;
+  const auto line_at_or_above = [&](std::int32_t y) { return -((-y) >> bits); };
+  std::uint32_t from = first + count - 1;
+  for (std::uint32_t to = first; to < first + count; from = to++) {
+    const bool upwards = corners_[from].y < corners_[to].y;
+    const std::uint32_t low = upwards ? from : to, high = upwards ? to : from;
+    const std::int32_t first_line = line_at_or_above(corners_[low].y);
+    const std::int32_t end_line = line_at_or_above(corners_[high].y);
+    if (first_line >= end_line) continue;
+    if (variant_ >= 2 && ids_[low] != FAROP_NO_VERTEX_ID && ids_[high] != FAROP_NO_VERTEX_ID &&
+        enter_second_polygon(low, high, polygon)) {
+      continue;
+    }
+    enter_edge(low, high, first_line, end_line, polygon);
+  }
+}
+
+// Gives the edge that a neighbour has entered its second polygon. Or makes room for the edge to be entered
+// next, and returns false.
+bool Solids::enter_second_polygon(std::uint32_t low, std::uint32_t high, std::uint32_t polygon) {
+  const Slot wanted = {ids_[low], ids_[high], polygons_[polygon].surface,
+                       static_cast<std::uint32_t>(edge_table_.size())};
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t at =
+      static_cast<std::size_t>(mixed(wanted.low_id ^ (wanted.surface << 16), wanted.high_id)) & mask;
+  for (; slots_[at].edge != k_none; at = (at + 1) & mask) {
+    const Slot& slot = slots_[at];
+    if (slot.low_id != wanted.low_id || slot.high_id != wanted.high_id || slot.surface != wanted.surface)
+      continue;
+    Edge& edge = edge_table_[slot.edge];
+    const auto same_place = [&](const farop_vertex& a, const farop_vertex& b) {
+      return a.x == b.x && a.y == b.y && a.z == b.z;
+    };
+    const bool same =
+        same_place(corners_[edge.low], corners_[low]) && same_place(corners_[edge.high], corners_[high]);
+    if (same && edge.polygon[1] == k_none) {
+      edge.polygon[1] = polygon;
+      return true;
+    }
+    surfaces_[wanted.surface].solid = false;  // a third polygon, or ids that are none
+    return false;
+  }
+  slots_[at] = wanted;
+  return false;
+}
+
+void Solids::enter_edge(std::uint32_t low, std::uint32_t high, std::int32_t first_line, std::int32_t end_line,
+                        std::uint32_t polygon) {
+  const std::int32_t x = corners_[low].x, y = corners_[low].y;
+  const int bits = frame_->subpixel_bits;
+  const std::int64_t dx = corners_[high].x - x, dy = corners_[high].y - y;
+  const auto floor_div = [](std::int64_t p, std::int64_t q) { return p / q - (p % q < 0 ? 1 : 0); };
+  Edge edge;
+  edge.end_line = end_line;
+  edge.polygon[0] = polygon;
+  edge.low = low, edge.high = high;
+  edge.denominator = static_cast<std::int32_t>(dy << bits);
+  const std::int64_t crossing = x * dy + ((std::int64_t{first_line} << bits) - y) * dx;  // times denominator
+  edge.column = static_cast<std::int32_t>(-floor_div(-crossing, edge.denominator));
+  edge.excess = static_cast<std::int32_t>(std::int64_t{edge.column} * edge.denominator - crossing);
+  edge.step = static_cast<std::int32_t>(floor_div(dx, dy));
+  edge.excess_step = static_cast<std::int32_t>((dx - edge.step * dy) << bits);
+  edge_table_.push_back(edge);
+  first_line_.push_back(first_line);
+}
+
+void Solids::sort_into_buckets() {
+  bucket_.assign(static_cast<std::size_t>(frame_->height) + 2, 0);
+  for (const std::int32_t line : first_line_) ++bucket_[static_cast<std::size_t>(line) + 2];
+  for (std::size_t line = 2; line < bucket_.size(); ++line) bucket_[line] += bucket_[line - 1];
+  // bucket_[line + 1] is where the next edge of the line goes; afterwards, where the next line begins.
+  sorted_.resize(edge_table_.size());
+  for (std::size_t e = 0; e < edge_table_.size(); ++e) {
+    sorted_[bucket_[static_cast<std::size_t>(first_line_[e]) + 1]++] = edge_table_[e];
+  }
+  edge_table_.swap(sorted_);
+  for (std::size_t line = 0; line + 2 < bucket_.size(); ++line) {
+    if (bucket_[line + 1] - bucket_[line] < 2) continue;
+    std::sort(edge_table_.begin() + bucket_[line], edge_table_.begin() + bucket_[line + 1], before);
+  }
+}
+
+// ---- active edges
+// ---------------------------------------------------------------------------------------------------
+
+void Solids::next_active_edges() {
+  // Drop, step, and put back in order those that have crossed others: few, unless the picture is a heap of
+  // needles.
+  std::size_t kept = 0, moves_left = 16 * active_.size() + 256;
+  for (std::size_t k = 0; k < active_.size(); ++k) {
+    if (active_[k].end_line <= line_) continue;
+    Edge edge = active_[k];
+    edge.step_up();
+    std::size_t place = kept++;
+    for (; place > 0 && moves_left > 0 && before(edge, active_[place - 1]); --place, --moves_left) {
+      active_[place] = active_[place - 1];
+    }
+    active_[place] = edge;
+  }
+  active_.resize(kept);
+  if (moves_left == 0) std::sort(active_.begin(), active_.end(), before);
+
+  // Merge the bucket in, from the right.
+  const Edge* const bucket = edge_table_.data() + bucket_[static_cast<std::size_t>(line_)];
+  std::size_t begun = bucket_[static_cast<std::size_t>(line_) + 1] - bucket_[static_cast<std::size_t>(line_)];
+  active_.resize(kept + begun);
+  while (begun > 0) {
+    const bool old = kept > 0 && before(bucket[begun - 1], active_[kept - 1]);
+    active_[kept + begun - 1] = old ? active_[kept - 1] : bucket[begun - 1];
+    --(old ? kept : begun);
+  }
+  count_.active_edges_sum += active_.size();
+  count_.active_edges_max = std::max<std::uint64_t>(count_.active_edges_max, active_.size());
+}
+
+// ---- from left to right through a line
+// ------------------------------------------------------------------------------
+
+void Solids::sweep() {
+  paired_ = false;
+  visible_ = k_none;
+  line_begin_ = spans_.size();
+  for (std::size_t k = 0; k < active_.size();) {
+    const std::int32_t column = active_[k].column;
+    ++column_number_;
+    candidates_.clear();
+    do {
+      cross(static_cast<std::uint32_t>(k++));
+    } while (k < active_.size() && active_[k].column == column);
+    if (in_.empty()) continue;
+    ++count_.spans;
+    if (in_.size() > 1 && must_be_careful()) {
+      emit_careful(column, active_[k].column);
+    } else {
+      decide(column);
+      emit(column, active_[k].column);
+    }
+  }
+}
+
+// The sweep crosses an active edge: it enters or leaves its polygons.
+void Solids::cross(std::uint32_t active) {
+  const std::uint32_t a = active_[active].polygon[0], b = active_[active].polygon[1];
+  const auto enter_or_leave = [&](std::uint32_t polygon, std::uint32_t crossing) {
+    if (polygons_[polygon].in) {
+      leave(polygon);
+      if (visible_ == polygon) visible_ = k_none;
+    } else {
+      enter(polygon, crossing);
+      make_candidate(polygon);
+    }
+  };
+  if (b == k_none) {
+    enter_or_leave(a, 2 * active);
+  } else if (a == b) {
+    // a bridge of one polygon, walked twice
+  } else if (polygons_[a].in == polygons_[b].in) {
+    enter_or_leave(a, 2 * active);  // the outline of a solid
+    enter_or_leave(b, 2 * active + 1);
+  } else {
+    // From a face to its neighbour: what goes for one goes for the other, as they meet here.
+    const std::uint32_t side = polygons_[a].in ? 1 : 0;
+    const std::uint32_t from = side == 1 ? a : b, to = side == 1 ? b : a;
+    leave(from);
+    enter(to, 2 * active + side);
+    if (visible_ == from) {
+      visible_ = to;
+    } else if (polygons_[from].candidate_at == column_number_) {
+      make_candidate(to);
+    }
+  }
+}
+
+void Solids::enter(std::uint32_t polygon, std::uint32_t crossing) {
+  Polygon& p = polygons_[polygon];
+  p.in = true;
+  p.slope_known = false;
+  p.left = crossing;
+  p.column = active_[crossing / 2].column;
+  p.place = static_cast<std::uint32_t>(in_.size());
+  in_.push_back(polygon);
+  if (variant_ == 1 || one_solid_) return;
+  Surface& surface = surfaces_[p.surface];
+  if (!surface.solid)
+    ++others_in_;
+  else if (surface.in++ == 0)
+    ++solids_in_;
+}
+
+void Solids::leave(std::uint32_t polygon) {
+  Polygon& p = polygons_[polygon];
+  p.in = false;
+  in_[p.place] = in_.back();
+  polygons_[in_.back()].place = p.place;
+  in_.pop_back();
+  if (variant_ == 1 || one_solid_) return;
+  Surface& surface = surfaces_[p.surface];
+  if (!surface.solid)
+    --others_in_;
+  else if (--surface.in == 0)
+    --solids_in_;
+}
+
+void Solids::make_candidate(std::uint32_t polygon) {
+  polygons_[polygon].candidate_at = column_number_;
+  candidates_.push_back(polygon);
+}
+
+bool Solids::must_be_careful() const {
+  if (variant_ == 1) return true;
+  return !one_solid_ && (others_in_ > 0 || solids_in_ > 1);
+}
+
+// What is visible from this column to the next end point, within one solid.
+void Solids::decide(std::int32_t column) {
+  if (in_.size() == 1) {
+    visible_ = in_[0];
+  } else if (visible_ == k_none) {
+    visible_ = nearest_at(column);
+  } else {
+    for (const std::uint32_t polygon : candidates_) {
+      if (polygon != visible_ && polygons_[polygon].in && in_front(polygon, visible_, column))
+        visible_ = polygon;
+    }
+  }
+}
+
+std::uint32_t Solids::nearest_at(std::int32_t column) {
+  std::uint32_t nearest = in_[0];
+  for (std::size_t i = 1; i < in_.size(); ++i) {
+    if (in_front(in_[i], nearest, column)) nearest = in_[i];
+  }
+  return nearest;
+}
+
+// The same for any polygons: the span is cut where one comes through another. Segments are straight, so of
+// two each is in front on one side only, and halving finds the place.
+void Solids::emit_careful(std::int32_t column, std::int32_t end) {
+  while (column < end) {
+    visible_ = nearest_at(column);
+    std::int32_t cut = end;
+    for (const std::uint32_t polygon : in_) {
+      if (polygon == visible_ || cut == column + 1 || !in_front(polygon, visible_, cut - 1)) continue;
+      std::int32_t behind = column;
+      --cut;
+      while (cut - behind > 1) {
+        const std::int32_t middle = behind + (cut - behind) / 2;
+        (in_front(polygon, visible_, middle) ? cut : behind) = middle;
+      }
+    }
+    if (cut < end) ++count_.spans;
+    emit(column, cut);
+    column = cut;
+  }
+}
+
+void Solids::emit(std::int32_t column, std::int32_t end) {
+  const Polygon& polygon = polygons_[visible_];
+  if (spans_.size() > line_begin_ && spans_.back().end == column && spans_.back().polygon == visible_ &&
+      (polygon.one_color || last_left_ == polygon.left)) {
+    spans_.back().end = end;
+    return;
+  }
+  last_left_ = polygon.left;
+  spans_.push_back({column, end, visible_, polygon.one_color ? k_none : make_ramp(polygon, column)});
+}
+
+// ---- depths and colours on a line
+// ---------------------------------------------------------------------------------------
+
+// Where every polygon that is entered on this line is left. Only for lines on which somebody asks.
+void Solids::pair_crossings() {
+  paired_ = true;
+  right_of_.resize(2 * active_.size());
+  pending_.resize(polygons_.size(), k_none);
+  for (std::uint32_t k = 0; k < active_.size(); ++k) {
+    const std::uint32_t* const polygon = active_[k].polygon;
+    for (std::uint32_t side = 0; side < 2; ++side) {
+      if (polygon[side] == k_none || polygon[0] == polygon[1]) continue;
+      std::uint32_t& pending = pending_[polygon[side]];
+      if (pending == k_none) {
+        pending = 2 * k + side;
+      } else {
+        right_of_[pending] = k;
+        pending = k_none;
+      }
+    }
+  }
+}
+
+// Anything that is linear along the segment of a polygon on this line: on the edges that bound it.
+// The segment is `width` columns wide and its first pixel lies `to_first` columns from its left end.
+template <class Attribute>
+Solids::Ends Solids::ends(const Polygon& polygon, const Attribute& attribute) {
+  if (!paired_) pair_crossings();
+  const Edge &left = active_[polygon.left / 2], &right = active_[right_of_[polygon.left]];
+  const auto at = [&](const Edge& edge) {
+    const farop_vertex &low = corners_[edge.low], &high = corners_[edge.high];
+    const double along = static_cast<double>((line_ << frame_->subpixel_bits) - low.y) / (high.y - low.y);
+    const double from = attribute(low), to = attribute(high);
+    return from + (to - from) * along;
+  };
+  Ends ends;
+  ends.left = at(left), ends.right = at(right);
+  // Sums of terms that are never negative: however thin the segment, no digits are lost.
+  ends.to_first = static_cast<double>(left.excess) / left.denominator;
+  ends.width = (right.column - 1 - left.column) + ends.to_first +
+               static_cast<double>(right.denominator - right.excess) / right.denominator;
+  ends.pixels = right.column - left.column;
+  return ends;
+}
+
+std::int64_t Solids::depth(std::uint32_t polygon, std::int32_t column) {
+  Polygon& p = polygons_[polygon];
+  if (!p.slope_known) {
+    p.slope_known = true;
+    const Ends z = ends(p, [](const farop_vertex& v) { return static_cast<double>(v.z); });
+    constexpr double one = 1 << k_depth_bits;
+    const double slope = (z.right - z.left) / z.width;
+    p.z = static_cast<std::int64_t>((z.left + slope * z.to_first) * one);
+    p.z += std::int64_t{1} << (k_depth_bits - k_compare_bits - 1);  // so that dropping bits rounds
+    p.z_step = z.pixels > 1 ? static_cast<std::int64_t>(slope * one) : 0;
+  }
+  return (p.z + p.z_step * (column - p.column)) >> (k_depth_bits - k_compare_bits);
+}
+
+bool Solids::in_front(std::uint32_t a, std::uint32_t b, std::int32_t column) {
+  ++count_.depth_comparisons;
+  const std::int64_t depth_a = depth(a, column), depth_b = depth(b, column);
+  return depth_a != depth_b ? depth_a < depth_b : a < b;
+}
+
+std::uint32_t Solids::make_ramp(const Polygon& polygon, std::int32_t column) {
+  Ramp ramp;
+  const auto set = [&](int channel, std::uint8_t farop_vertex::*component) {
+    const Ends c = ends(polygon, [&](const farop_vertex& v) { return static_cast<double>(v.*component); });
+    constexpr double one = 1 << k_color_bits;
+    const double slope = (c.right - c.left) / c.width;
+    const double start = c.left + slope * (c.to_first + (column - polygon.column));
+    ramp.color[channel] = static_cast<std::uint32_t>((start + 0.5) * one);
+    ramp.step[channel] =
+        static_cast<std::uint32_t>(c.pixels > 1 ? static_cast<std::int32_t>(slope * one) : 0);
+  };
+  set(0, &farop_vertex::r), set(1, &farop_vertex::g), set(2, &farop_vertex::b);
+  ramps_.push_back(ramp);
+  return static_cast<std::uint32_t>(ramps_.size() - 1);
+}
+
+// ---- pixels
+// ---------------------------------------------------------------------------------------------------------
+
+/// The same three bytes `count` times.
+void fill(std::uint8_t* to, std::int32_t count, const std::uint8_t (&rgb)[3]) {
+  std::uint8_t four[12];
+  for (int i = 0; i < 12; ++i) four[i] = rgb[i % 3];
+  for (; count >= 4; count -= 4, to += 12) std::memcpy(to, four, 12);
+  std::memcpy(to, four, static_cast<std::size_t>(3 * count));
+}
+
+void Solids::write_pixels() {
+  std::size_t at = 0;
+  for (std::int32_t line = 0; line < frame_->height; ++line) {
+    std::uint8_t* const row = frame_->pixels + line * frame_->row_bytes;
+    for (; at < line_end_[static_cast<std::size_t>(line)]; ++at) {
+      const Span& span = spans_[at];
+      std::uint8_t* pixel = row + 3 * std::int64_t{span.first};
+      count_.pixels += static_cast<std::uint64_t>(span.end - span.first);
+      if (span.ramp == k_none) {
+        const farop_vertex& v = corners_[polygons_[span.polygon].first_corner];
+        fill(pixel, span.end - span.first, {v.r, v.g, v.b});
+        continue;
+      }
+      Ramp ramp = ramps_[span.ramp];
+      for (std::int32_t column = span.first; column < span.end; ++column, pixel += 3) {
+        for (int c = 0; c < 3; ++c) {
+          pixel[c] = static_cast<std::uint8_t>(ramp.color[c] >> k_color_bits);
+          ramp.color[c] += ramp.step[c];
+        }
+      }
+    }
+  }
+}
+
+void Solids::draw() {
+  using Clock = std::chrono::steady_clock;
+  count_ = {};
+  const auto start = Clock::now();
+  build_edge_table();
+  const auto built = Clock::now();
+  // Whatever a frame that failed has left behind.
+  active_.clear(), in_.clear(), pending_.clear();
+  spans_.clear(), ramps_.clear();
+  solids_in_ = others_in_ = column_number_ = 0;
+  line_end_.clear();
+  for (line_ = 0; line_ < frame_->height; ++line_) {
+    next_active_edges();
+    sweep();
+    line_end_.push_back(spans_.size());
+  }
+  const auto scanned = Clock::now();
+  write_pixels();
+  if (!log_statistics_) return;
+  const auto seconds = [](Clock::duration d) { return std::chrono::duration<double>(d).count(); };
+  report(seconds(built - start), seconds(scanned - built), seconds(Clock::now() - scanned));
+}
+
+void Solids::report(double build, double scan, double pixel) const {
+  char text[512];
+  const auto number = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
+  std::snprintf(text, sizeof text,
+                "statistics edge_table=%llu active_edges_max=%llu active_edges_sum=%llu spans=%llu "
+                "depth_comparisons=%llu pixels=%llu build_seconds=%.9f scan_seconds=%.9f pixel_seconds=%.9f",
+                number(edge_table_.size()), number(count_.active_edges_max), number(count_.active_edges_sum),
+                number(count_.spans), number(count_.depth_comparisons), number(count_.pixels), build, scan,
+                pixel);
+  host_->log(host_, FAROP_LOG_INFO, text);
+}
+
+// ---- the interface: nothing is thrown across it
+// ---------------------------------------------------------------------
+
+template <class Body>
+farop_status guarded(const farop_host* host, const Body& body) noexcept {
+  try {
+    body();
+    return FAROP_OK;
+  } catch (const std::bad_alloc&) {
+    return FAROP_E_MEMORY;
+  } catch (const Refusal& refusal) {
+    host->log(host, FAROP_LOG_ERROR, refusal.what());
+    return refusal.status;
+  } catch (const std::exception& error) {
+    host->log(host, FAROP_LOG_ERROR, error.what());
+    return FAROP_E_INTERNAL;
+  }
+}
+
+Solids* new_solids(const farop_host* host) {
+  const auto option = [&](const char* key, const char* otherwise) {
+    const char* const value = host->option(host, key);
+    return std::string_view(value != nullptr ? value : otherwise);
+  };
+  const std::string_view variant = option("variant", "3"), statistics = option("statistics", "0");
+  if (variant != "1" && variant != "2" && variant != "3") {
+    throw Refusal(FAROP_E_UNSUPPORTED, "solids: option variant is 1, 2 or 3");
+  }
+  if (statistics != "0" && statistics != "1") {
+    throw Refusal(FAROP_E_UNSUPPORTED, "solids: option statistics is 0 or 1");
+  }
+  return new Solids(host, variant[0] - '0', statistics == "1");
+}
+
+Solids& of(void* self) {
+  return *static_cast<Solids*>(self);
+}
+
+}  // namespace
+
+extern "C" const farop_rasterizer* farop_rasterizer_entry(const farop_host*) {
+  static const farop_rasterizer table = {
+      sizeof table,
+      FAROP_ABI_VERSION,
+      "solids",
+      "spanning scan-line, faster on solids (Lenz Cesar, Oliveira)",
+      FAROP_WANT_VERTEX_IDS,
+      0,
+      [](const farop_host* host, void** self) { return guarded(host, [&] { *self = new_solids(host); }); },
+      [](void* self) { delete &of(self); },
+      [](void* self, const farop_frame* frame) {
+        return guarded(of(self).host(), [&] { of(self).begin(*frame); });
+      },
+      [](void* self, const farop_polygon* polygon) {
+        return guarded(of(self).host(), [&] { of(self).store(*polygon); });
+      },
+      [](void* self) { return guarded(of(self).host(), [&] { of(self).draw(); }); }};
+  return &table;
+}
