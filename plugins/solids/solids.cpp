@@ -45,6 +45,7 @@
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <new>
@@ -99,6 +100,7 @@ struct Polygon {
   std::uint32_t first_corner = 0, corner_count = 0;
   std::uint32_t surface = 0;
   bool back_facing = false, one_color = false;
+  bool in_surface = false;
   // Of the current line:
   bool in = false;                 ///< the sweep is inside
   bool slope_known = false;        ///< z, z_step
@@ -136,6 +138,11 @@ std::uint64_t mixed(std::uint32_t a, std::uint32_t b) {
   return h ^ (h >> 31);
 }
 
+/// Twice the signed area of a triangle.
+std::int64_t turn(const farop_vertex& a, const farop_vertex& b, const farop_vertex& c) {
+  return std::int64_t{b.x - a.x} * (c.y - a.y) - std::int64_t{b.y - a.y} * (c.x - a.x);
+}
+
 struct Statistics {
   std::uint64_t active_edges_max = 0, active_edges_sum = 0, spans = 0, depth_comparisons = 0, pixels = 0;
 };
@@ -165,6 +172,9 @@ class Solids {
   std::uint32_t number_of_surface(std::uint32_t object_id, std::uint32_t surface_id);
   void find_solids();
   void build_edge_table();
+  bool is_back_face(const Polygon& polygon);
+  int back_face_sign();
+  std::int64_t twice_area(const Polygon& polygon) const;
   void enter_polygon(std::uint32_t polygon);
   bool enter_second_polygon(std::uint32_t low, std::uint32_t high, std::uint32_t polygon);
   void enter_edge(std::uint32_t low, std::uint32_t high, std::int32_t first_line, std::int32_t end_line,
@@ -179,9 +189,9 @@ class Solids {
   void leave(std::uint32_t polygon);
   void make_candidate(std::uint32_t polygon);
   bool must_be_careful() const;
-  void decide(std::int32_t column);
-  std::uint32_t nearest_at(std::int32_t column);
-  void emit_careful(std::int32_t column, std::int32_t end);
+  void emit_trusting(std::int32_t column, std::int32_t end);
+  void emit_careful(const std::vector<std::uint32_t>& polygons, std::int32_t column, std::int32_t end);
+  bool nearest_among(const std::vector<std::uint32_t>& polygons, std::int32_t column);
   void emit(std::int32_t column, std::int32_t end);
 
   // depths and colours on it
@@ -190,6 +200,7 @@ class Solids {
   Ends ends(const Polygon& polygon, const Attribute& attribute);
   std::int64_t depth(std::uint32_t polygon, std::int32_t column);
   bool in_front(std::uint32_t a, std::uint32_t b, std::int32_t column);
+  std::int32_t comes_through(std::uint32_t a, std::uint32_t b, std::int32_t column, std::int32_t end);
   std::uint32_t make_ramp(const Polygon& polygon, std::int32_t column);
 
   void write_pixels();
@@ -208,6 +219,7 @@ class Solids {
   std::unordered_map<std::uint64_t, std::uint32_t> surface_number_;  ///< both ids -> into surfaces_
   std::uint64_t last_surface_ = 0;
   std::uint32_t last_surface_number_ = 0;
+  int back_face_sign_ = 0;  ///< 0: not asked for yet
   bool one_solid_ = false;  ///< everything in the tables is one
 
   std::vector<Edge> edge_table_, sorted_;  ///< by bucket once sorted
@@ -262,13 +274,14 @@ void Solids::store(const farop_polygon& polygon) {
     stored.one_color = stored.one_color && v[i].r == v[0].r && v[i].g == v[0].g && v[i].b == v[0].b;
   }
   corners_.insert(corners_.end(), v, v + polygon.vertex_count);
+  stored.surface = number_of_surface(polygon.object_id, polygon.surface_id);
+  stored.in_surface = polygon.surface_id != 0;  // a flat file has none
   if (variant_ >= 2) {
     if (polygon.vertex_ids != nullptr) {
       ids_.insert(ids_.end(), polygon.vertex_ids, polygon.vertex_ids + polygon.vertex_count);
     } else {
       ids_.resize(corners_.size(), FAROP_NO_VERTEX_ID);
     }
-    stored.surface = number_of_surface(polygon.object_id, polygon.surface_id);
   }
   polygons_.push_back(stored);
 }
@@ -310,6 +323,7 @@ void Solids::find_solids() {
 void Solids::build_edge_table() {
   edge_table_.clear();
   first_line_.clear();
+  back_face_sign_ = 0;
   if (variant_ >= 2) {
     find_solids();
     std::size_t slots = 16;
@@ -318,11 +332,51 @@ void Solids::build_edge_table() {
   }
   one_solid_ = variant_ >= 2 && surfaces_.size() == 1 && surfaces_[0].solid;
   for (std::uint32_t p = 0; p < polygons_.size(); ++p) {
-    if (variant_ == 3 && polygons_[p].back_facing && surfaces_[polygons_[p].surface].solid) continue;
+    if (variant_ == 3 && surfaces_[polygons_[p].surface].solid && is_back_face(polygons_[p])) continue;
     enter_polygon(p);
   }
   one_solid_ = one_solid_ && surfaces_[0].solid;
   sort_into_buckets();
+}
+
+// A back face, but for the few that rounding to pixels has turned over: on the screen these are front faces,
+// and where they stand on the outline of a solid there is no other. A quadrangle may have turned over in
+// part: then it crosses itself, and its corners turn both ways.
+bool Solids::is_back_face(const Polygon& polygon) {
+  if (!polygon.back_facing) return false;
+  const std::int64_t area = back_face_sign() * twice_area(polygon);
+  const std::uint32_t count = polygon.corner_count;
+  if (area <= 0) return area == 0 && count == 3;
+  if (count == 3) return true;
+  const farop_vertex* const v = &corners_[polygon.first_corner];
+  std::int64_t length = 0;
+  bool both_ways = false;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const farop_vertex &a = v[i], &b = v[(i + 1) % count];
+    length += std::abs(b.x - a.x) + std::abs(b.y - a.y);
+    both_ways = both_ways || back_face_sign() * turn(a, b, v[(i + 2) % count]) < 0;
+  }
+  // Polygons of more corners may well be concave; rounding can turn over thin ones only.
+  return !(both_ways && (count == 4 || area <= length));
+}
+
+// Which way round back faces run on the screen: it depends on whether y points up or down.
+int Solids::back_face_sign() {
+  if (back_face_sign_ == 0) {
+    std::int64_t sum = 0;
+    for (const Polygon& polygon : polygons_) {
+      if (polygon.back_facing) sum += twice_area(polygon);
+    }
+    back_face_sign_ = sum > 0 ? 1 : -1;
+  }
+  return back_face_sign_;
+}
+
+std::int64_t Solids::twice_area(const Polygon& polygon) const {
+  const farop_vertex* const v = &corners_[polygon.first_corner];
+  std::int64_t sum = 0;
+  for (std::uint32_t i = 2; i < polygon.corner_count; ++i) sum += turn(v[0], v[i - 1], v[i]);
+  return sum;
 }
 
 // An edge lives on the lines y_low <= line < y_high, so horizontal edges live on none: the rule "bottom edges
@@ -461,10 +515,9 @@ void Solids::sweep() {
     if (in_.empty()) continue;
     ++count_.spans;
     if (in_.size() > 1 && must_be_careful()) {
-      emit_careful(column, active_[k].column);
+      emit_careful(in_, column, active_[k].column);
     } else {
-      decide(column);
-      emit(column, active_[k].column);
+      emit_trusting(column, active_[k].column);
     }
   }
 }
@@ -542,47 +595,48 @@ bool Solids::must_be_careful() const {
   return !one_solid_ && (others_in_ > 0 || solids_in_ > 1);
 }
 
-// What is visible from this column to the next end point, within one solid.
-void Solids::decide(std::int32_t column) {
+// What is visible from this column to the next end point, if all that is there belongs to one solid: nothing
+// new, unless the sweep came over an outline. Faces do not cross, so depths at this pixel hold up to the end.
+void Solids::emit_trusting(std::int32_t column, std::int32_t end) {
   if (in_.size() == 1) {
     visible_ = in_[0];
-  } else if (visible_ == k_none) {
-    visible_ = nearest_at(column);
-  } else {
-    for (const std::uint32_t polygon : candidates_) {
-      if (polygon != visible_ && polygons_[polygon].in && in_front(polygon, visible_, column))
-        visible_ = polygon;
-    }
+  } else if (visible_ == k_none || polygons_[visible_].back_facing) {
+    if (!nearest_among(in_, column)) return emit_careful(in_, column, end);
+  } else if (!candidates_.empty()) {
+    std::erase_if(candidates_, [&](std::uint32_t p) { return !polygons_[p].in || p == visible_; });
+    candidates_.push_back(visible_);
+    // But they touch. Where the sweep enters two faces over their edge, and the edge goes through this pixel,
+    // it takes the next one to tell which is in front.
+    if (!nearest_among(candidates_, column)) return emit_careful(candidates_, column, end);
   }
+  // A back face in sight: rounding to pixels has folded the solid here.
+  if (polygons_[visible_].back_facing) return emit_careful(in_, column, end);
+  emit(column, end);
 }
 
-std::uint32_t Solids::nearest_at(std::int32_t column) {
-  std::uint32_t nearest = in_[0];
-  for (std::size_t i = 1; i < in_.size(); ++i) {
-    if (in_front(in_[i], nearest, column)) nearest = in_[i];
-  }
-  return nearest;
-}
-
-// The same for any polygons: the span is cut where one comes through another. Segments are straight, so of
-// two each is in front on one side only, and halving finds the place.
-void Solids::emit_careful(std::int32_t column, std::int32_t end) {
-  while (column < end) {
-    visible_ = nearest_at(column);
-    std::int32_t cut = end;
-    for (const std::uint32_t polygon : in_) {
-      if (polygon == visible_ || cut == column + 1 || !in_front(polygon, visible_, cut - 1)) continue;
-      std::int32_t behind = column;
-      --cut;
-      while (cut - behind > 1) {
-        const std::int32_t middle = behind + (cut - behind) / 2;
-        (in_front(polygon, visible_, middle) ? cut : behind) = middle;
-      }
+// The same for any polygons: the span is cut where one comes through another.
+void Solids::emit_careful(const std::vector<std::uint32_t>& polygons, std::int32_t column, std::int32_t end) {
+  for (std::int32_t cut = end; column < end; column = cut, cut = end) {
+    nearest_among(polygons, column);
+    for (const std::uint32_t polygon : polygons) {
+      if (polygon != visible_) cut = comes_through(polygon, visible_, column, cut);
     }
     if (cut < end) ++count_.spans;
     emit(column, cut);
-    column = cut;
   }
+}
+
+// Makes the nearest one visible. False if another one is as near.
+bool Solids::nearest_among(const std::vector<std::uint32_t>& polygons, std::int32_t column) {
+  bool alone = true;
+  visible_ = polygons[0];
+  for (std::size_t i = 1; i < polygons.size(); ++i) {
+    const bool nearer = in_front(polygons[i], visible_, column);
+    const bool as_near = depth(polygons[i], column) == depth(visible_, column);
+    if (nearer || as_near) alone = !as_near;
+    if (nearer) visible_ = polygons[i];
+  }
+  return alone;
 }
 
 void Solids::emit(std::int32_t column, std::int32_t end) {
@@ -655,10 +709,31 @@ std::int64_t Solids::depth(std::uint32_t polygon, std::int32_t column) {
   return (p.z + p.z_step * (column - p.column)) >> (k_depth_bits - k_compare_bits);
 }
 
+// Of equal depths the first drawn stays. But where a front and a back face of one surface touch, on the
+// outline of a solid, the front face shows, as it does where variant 3 has dropped the other.
 bool Solids::in_front(std::uint32_t a, std::uint32_t b, std::int32_t column) {
   ++count_.depth_comparisons;
   const std::int64_t depth_a = depth(a, column), depth_b = depth(b, column);
-  return depth_a != depth_b ? depth_a < depth_b : a < b;
+  if (depth_a != depth_b) return depth_a < depth_b;
+  const Polygon &p = polygons_[a], &q = polygons_[b];
+  if (p.in_surface && p.surface == q.surface && (p.back_facing || q.back_facing)) {
+    const bool p_is_back = is_back_face(p), q_is_back = is_back_face(q);
+    if (p_is_back != q_is_back) return q_is_back;
+  }
+  return a < b;
+}
+
+// The first pixel in column + 1 .. end - 1 at which `a`, which is behind `b` before that, is in front of it;
+// `end` if there is none. Segments are straight, so of two each is in front on one side only, and halving
+// finds the place.
+std::int32_t Solids::comes_through(std::uint32_t a, std::uint32_t b, std::int32_t column, std::int32_t end) {
+  if (end - column < 2 || !in_front(a, b, end - 1)) return end;
+  std::int32_t behind = column, before = end - 1;
+  while (before - behind > 1) {
+    const std::int32_t middle = behind + (before - behind) / 2;
+    (in_front(a, b, middle) ? before : behind) = middle;
+  }
+  return before;
 }
 
 std::uint32_t Solids::make_ramp(const Polygon& polygon, std::int32_t column) {
