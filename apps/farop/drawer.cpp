@@ -54,10 +54,11 @@ Error load_error(const std::string& file, const PluginLibrary& library) {
 }
 
 /// Libraries and what they keep pointers to stay until the process ends.
-HostServices& services_of(Session& session, const RasterizerOptions& how) {
-  return *new HostServices(plugin_options(how),
+HostServices& services_of(Session& session, const std::map<std::string, std::string>& options) {
+  return *new HostServices(options,
                            [&console = session.console](farop_log_level level, const std::string& line) {
-                             if (level >= FAROP_LOG_WARNING) {
+                             // An error is quoted by the failure that follows it, or shown with the picture.
+                             if (level == FAROP_LOG_WARNING) {
                                console.notice(line);
                              } else {
                                console.log("{}", line);
@@ -68,29 +69,33 @@ HostServices& services_of(Session& session, const RasterizerOptions& how) {
 /// A user's library, called in this process.
 class LibraryDrawer : public Drawer {
  public:
-  LibraryDrawer(Session& session, const std::string& file, const RasterizerOptions& how,
+  LibraryDrawer(Session& session, const std::string& file, const LoadableRasterizer& what,
                 const PluginDrawing& drawing)
-      : services_(services_of(session, how)),
-        library_(open(session, file, services_)),
+      : console_(session.console),
+        services_(services_of(session, what.options)),
+        library_(open(session, file, what.library, services_)),
         rasterizer_(library_, services_, drawing) {}
   ScreenPolygonSink& sink() override { return rasterizer_; }
   std::string name() const override { return library_.name; }
   std::optional<Framebuffer> take() override {
+    const std::string error = services_.last_error();
+    if (!error.empty()) console_.notice(fmt::format("rasterizer '{}': {}", library_.name, error));
     if (!rasterizer_.draws_here()) return std::nullopt;
     return rasterizer_.take();
   }
 
  private:
-  static PluginLibrary open(Session& session, const std::string& file, HostServices& services) {
-    // dlopen searches for a name without a slash; a file of the current folder was meant.
-    const std::string path = file.find('/') == std::string::npos ? "./" + file : file;
+  static PluginLibrary open(Session& session, const std::string& file, const std::string& path,
+                            HostServices& services) {
     PluginLibrary library = open_plugin(path, services);
     if (library.failure != LoadFailure::none) throw load_error(file, library);
-    if (!library.warning.empty())
+    if (!library.warning.empty()) {
       session.console.notice(fmt::format("rasterizer '{}': {}", library.name, library.warning));
+    }
     return library;
   }
 
+  Console& console_;
   HostServices& services_;
   PluginLibrary library_;
   PluginRasterizer rasterizer_;
@@ -138,7 +143,7 @@ void check_drawing(const ChosenRasterizer& rasterizer, const DrawerOptions& opti
                 "leave out --depth");
   }
   if (rasterizer.kind != RasterizerKind::library) return;
-  const PluginLibrary library = inspect_plugin_file(rasterizer.file);
+  const PluginLibrary library = inspect_plugin_file(loadable(rasterizer.file, {}).library);
   if (library.failure != LoadFailure::none) throw load_error(rasterizer.file, library);
 }
 
@@ -161,7 +166,8 @@ std::unique_ptr<Drawer> make_drawer(Session& session, const ChosenRasterizer& ra
       drawer = std::make_unique<CommandDrawer>(rasterizer.command, options.samples);
       break;
     case RasterizerKind::library:
-      drawer = std::make_unique<LibraryDrawer>(session, rasterizer.file, how,
+      drawer = std::make_unique<LibraryDrawer>(session, rasterizer.file,
+                                               loadable(rasterizer.file, plugin_options(how)),
                                                PluginDrawing{options.samples, options.background});
       break;
   }

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <set>
 #include <string_view>
 
@@ -19,9 +21,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view k_library_suffix = ".so";
+constexpr std::string_view k_python_suffix = ".py";
 
-/// "mine" for mine.so and libmine.so; nothing for other files.
+/// "mine" for mine.so, libmine.so and mine.py; nothing for other files.
 std::string name_of_library(const fs::path& file) {
+  if (file.extension() == k_python_suffix) return file.stem();
   if (file.extension() != k_library_suffix) return {};
   std::string name = file.stem();
   if (name.starts_with("lib")) name.erase(0, 3);
@@ -29,7 +33,26 @@ std::string name_of_library(const fs::path& file) {
 }
 
 bool is_file_name(const std::string& name) {
-  return name.find('/') != std::string::npos || name.ends_with(k_library_suffix);
+  return name.find('/') != std::string::npos || name.ends_with(k_library_suffix) ||
+         name.ends_with(k_python_suffix);
+}
+
+/// Longest script that is read; a million lines.
+constexpr std::uintmax_t k_max_script_bytes = 64u << 20;
+
+std::string text_file(const std::string& path) {
+  const auto fail = [&](const std::string& reason) {
+    throw Error(ExitStatus::plugin, fmt::format("{}: {}", printable(path, 4096), reason));
+  };
+  std::error_code ec;
+  const fs::file_status status = fs::status(path, ec);
+  if (!fs::exists(status)) fail("cannot be opened: No such file or directory");
+  if (!fs::is_regular_file(status)) fail("is no regular file, expected a Python script");
+  if (fs::file_size(path, ec) > k_max_script_bytes) fail("is too large for a script");
+  std::ifstream file(path, std::ios::binary);
+  std::string text(std::istreambuf_iterator<char>(file), {});
+  if (!file || text.find('\0') != std::string::npos) fail("is no text, expected a Python script");
+  return text;
 }
 
 ChosenRasterizer look_up(const RasterizerOptions& options) {
@@ -39,12 +62,12 @@ ChosenRasterizer look_up(const RasterizerOptions& options) {
   std::vector<std::string> names = {"internal", "null"};
   for (const FoundLibrary& library : libraries) names.push_back(library.name);
   const std::string near = did_you_mean(options.name, names);
-  throw Error(
-      ExitStatus::plugin, fmt::format("no rasterizer is called '{}'", printable(options.name)),
-      near.empty()
-          ? fmt::format("a file needs a slash: --rasterizer ./{}.so; `farop plugins` lists what is found",
-                        printable(options.name))
-          : fmt::format("did you mean '{}'? `farop plugins` lists what is found", near));
+  const std::string name = printable(options.name);
+  const std::string hint = near.empty()
+                               ? fmt::format("a file is named with its suffix: {}.so or {}.py", name, name)
+                               : fmt::format("did you mean '{}'?", near);
+  throw Error(ExitStatus::plugin, fmt::format("no rasterizer is called '{}'", name),
+              hint + (near.empty() ? ";" : "") + " `farop plugins` lists what is found");
 }
 
 }  // namespace
@@ -53,7 +76,7 @@ void add_rasterizer_options(CLI::App& command, RasterizerOptions& options) {
   const auto group = [](CLI::Option* option) { return option->group("Rasterizer"); };
   group(
       command.add_option("--rasterizer", options.name, "internal, null (draws nothing), or yours [internal]")
-          ->type_name("NAME|FILE.so"));
+          ->type_name("NAME|FILE.so|FILE.py"));
   group(command.add_option("--cmd", options.command, "a program: reads a flat file, writes a PPM")
             ->type_name("'PROGRAM {flat} {ppm}'"));
   group(command.add_option("--plugin-option", options.key_values, "an option that your rasterizer asks for")
@@ -78,6 +101,22 @@ std::map<std::string, std::string> plugin_options(const RasterizerOptions& optio
     table[pair.substr(0, equals)] = pair.substr(equals + 1);
   }
   return table;
+}
+
+LoadableRasterizer loadable(const std::string& file, std::map<std::string, std::string> options) {
+  // dlopen searches for a name without a slash; a file of the current folder was meant.
+  if (!file.ends_with(k_python_suffix)) {
+    return {file.find('/') == std::string::npos ? "./" + file : file, std::move(options)};
+  }
+  const fs::path adapter = library_file("farop-python.so");
+  if (!fs::exists(adapter)) {
+    throw Error(ExitStatus::plugin,
+                fmt::format("{}: this farop was built without Python", printable(file, 4096)),
+                "build it where libpython3-dev is installed");
+  }
+  options["script"] = file;
+  options["source"] = text_file(file);
+  return {adapter, std::move(options)};
 }
 
 std::vector<fs::path> plugin_folders(const std::vector<std::string>& first) {

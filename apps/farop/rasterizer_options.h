@@ -29,14 +29,22 @@ struct ChosenRasterizer {
   std::string command;  ///< of --cmd
 };
 
-/// Looks a name up: the built-in ones; a file when it has a slash or ends in .so; else NAME.so or libNAME.so
-/// in the folders of -I, of FAROP_PLUGIN_PATH (separated by colons) and of the installation, in this order.
-/// Throws Error(usage) for options that contradict each other, Error(plugin) with near names when nothing is
-/// found.
+/// Looks a name up: the built-in ones; a file when it has a slash or ends in .so or .py; else NAME.so,
+/// libNAME.so or NAME.py in the folders of -I, of FAROP_PLUGIN_PATH (separated by colons) and of the
+/// installation, in this order. Throws Error(usage) for options that contradict each other, Error(plugin)
+/// with near names when nothing is found.
 ChosenRasterizer choose_rasterizer(const RasterizerOptions& options);
 
 /// --plugin-option K=V as a table. Throws Error(usage).
 std::map<std::string, std::string> plugin_options(const RasterizerOptions& options);
+
+/// What is loaded for a chosen file: the library itself, or for a Python script the adapter, which gets the
+/// script as two options more. Throws Error(plugin) when the script cannot be read.
+struct LoadableRasterizer {
+  std::string library;
+  std::map<std::string, std::string> options;
+};
+LoadableRasterizer loadable(const std::string& file, std::map<std::string, std::string> options);
 
 /// Folders that are searched, in order, whether they exist or not.
 std::vector<std::filesystem::path> plugin_folders(const std::vector<std::string>& first);

@@ -52,6 +52,11 @@ std::string HostServices::last_words() const {
   return last_error_.empty() ? last_line_ : last_error_;
 }
 
+std::string HostServices::last_error() const {
+  const std::lock_guard lock(mutex_);
+  return last_error_;
+}
+
 void HostServices::forget_words() {
   const std::lock_guard lock(mutex_);
   last_error_.clear();

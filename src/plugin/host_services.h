@@ -26,6 +26,8 @@ class HostServices {
   const farop_host* host() const { return &table_.host; }
   /// The last line that was logged as an error, or else the last line; empty when there was none.
   std::string last_words() const;
+  /// The last line that was logged as an error; empty when there was none.
+  std::string last_error() const;
   /// Forgets last_words().
   void forget_words();
 

@@ -161,7 +161,7 @@ PluginLibrary inspect_plugin_file(const std::string& path) {
 }
 
 PluginLibrary check_plugin_table(const farop_rasterizer* table) {
-  if (table == nullptr) return failed(LoadFailure::refused, "refuses to work with this farop");
+  if (table == nullptr) return failed(LoadFailure::refused, "refuses to be loaded");
   if (table->abi_version >> 16 != FAROP_ABI_MAJOR) {
     return failed(
         LoadFailure::version,

@@ -23,6 +23,11 @@ std::uint64_t hash_of(const V3d& p, const V3d& n, bool given) {
   return h ^ (h >> 32);
 }
 
+/// Gives the memory back, which an assignment does not.
+void release(std::vector<std::uint32_t>& table) {
+  std::vector<std::uint32_t>().swap(table);
+}
+
 // Equality of bits, not of values: 0 and -0 are different corners, as read.
 bool same_bits(const V3d& a, const V3d& b) {
   const auto bits = [](double v) { return std::bit_cast<std::uint64_t>(v); };
@@ -61,7 +66,7 @@ std::uint32_t SurfaceBuilder::vertex(const V3d& position, const V3d& normal, boo
   if (!given) any_plain_ = true;
   const bool mixed = any_plain_ && any_given_;
   if (mixed && given_.size() < positions_.size()) given_.resize(positions_.size(), !given);
-  if (table_.size() < 2 * (positions_.size() + 1)) grow();
+  if (3 * table_.size() < 4 * (positions_.size() + 1)) grow();  // three quarters full at most
   const std::size_t mask = table_.size() - 1;
   for (std::size_t slot = hash_of(position, normal, given) & mask;; slot = (slot + 1) & mask) {
     if (table_[slot] == 0) {
@@ -81,7 +86,7 @@ std::uint32_t SurfaceBuilder::vertex(const V3d& position, const V3d& normal, boo
 
 void SurfaceBuilder::grow() {
   const std::size_t size = std::max(k_first_table, 2 * table_.size());
-  table_ = {};  // before the larger one is there
+  release(table_);  // before the larger one is there
   table_.assign(size, 0);
   const bool mixed = any_given_ && any_plain_;
   for (std::size_t v = 0; v < positions_.size(); ++v) {
@@ -97,7 +102,7 @@ Surface SurfaceBuilder::take(const Material& next_material) {
   // A table that one huge surface left behind would be slow to clear for every small one after it, and would
   // stand in memory beside the finished surface.
   if (table_.size() > k_largest_kept_table) {
-    table_ = {};
+    release(table_);
   } else {
     std::fill(table_.begin(), table_.end(), 0);
   }

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const char* const k_background = " --background 0.078 0.361 0.753 ";  // of SPD gears: a flat file has none
+const char* const k_background = " --background 0.078 0.361 0.753 ";  // of the scene; a flat file has none
 
 class Rasterizers : public testing::Test {
  protected:
@@ -21,8 +21,9 @@ class Rasterizers : public testing::Test {
     EXPECT_EQ(outcome.status, status) << command << "\n" << outcome.out << outcome.err;
     return outcome;
   }
-  void make_scene() {
-    run("farop spd gears --size 2 -o gears.nff -q && farop export gears.nff -o gears.scr --resolution "
+  void make_scene(const std::string& name = "gears --size 2") {
+    run("farop spd " + name +
+        " -o gears.nff -q && farop export gears.nff -o gears.scr --resolution "
         "257x193 -q");
   }
   void expect_message(const std::string& command, int status, const std::string& message) {
@@ -36,12 +37,15 @@ class Rasterizers : public testing::Test {
 class ShippedRasterizer : public Rasterizers, public testing::WithParamInterface<const char*> {};
 
 TEST_P(ShippedRasterizer, DrawsWhatTheInternalOneDraws) {
-  make_scene();
+  // The algorithm for solids knows which polygons belong together when it draws a scene, and relies on their
+  // being solids.
+  make_scene(GetParam() == std::string("solids") ? "hollow-cube" : "gears --size 2");
   const std::string by = std::string(" --rasterizer ") + GetParam() + " ";
   run("farop raster gears.scr -o theirs.ppm -q" + std::string(k_background));
   run("farop raster gears.scr -o mine.ppm -q" + by + k_background);
   run("farop compare mine.ppm theirs.ppm --fail 0.005");  // one step of 8 bits
-  run("farop render gears.nff -o rendered.ppm --resolution 257x193 -q" + by + "&& cmp rendered.ppm mine.ppm");
+  run("farop render gears.nff -o rendered.ppm --resolution 257x193 -q" + by + k_background +
+      "&& cmp rendered.ppm mine.ppm");
   run("farop raster - < gears.scr -o piped.ppm -q" + by + k_background + "&& cmp piped.ppm mine.ppm");
 }
 
@@ -54,7 +58,8 @@ TEST_P(ShippedRasterizer, DrawsFlatPolygonsInTheColourOfTheirFirstCorner) {
   run("farop raster pot.scr -o smooth.ppm -q" + by + "; farop compare mine.ppm smooth.ppm --fail 0.005", 1);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ShippedRasterizer, testing::Values("trapezoid", "scanline_fill"));
+INSTANTIATE_TEST_SUITE_P(All, ShippedRasterizer,
+                         testing::Values("trapezoid", "scanline_fill", "watkins", "solids"));
 
 TEST_F(Rasterizers, AreListedWithWhatTheySayOfThemselves) {
   const std::string list = run("farop plugins").out;
@@ -96,6 +101,59 @@ TEST_F(Rasterizers, ThatCannotBeHadAreNamedWithARemedy) {
   expect_message(
       "farop render gears.nff -o out.ppm --rasterizer trapezoid --resolution 30000x30000 --samples 2", 2,
       "larger than 32767");
+}
+
+/// Rasterizers in Python: skipped, and said so, where there is no adapter or no NumPy. The interpreter keeps
+/// memory to its end, which a leak checker would report.
+class PythonRasterizers : public Rasterizers {
+ protected:
+  void SetUp() override {
+    write_file(folder_ / "mine.py", read_file(fs::path(FAROP_SOURCE_DIR) / "docs/rasterizers/zbuffer.py"));
+    run("farop spd teapot --size 3 -o pot.nff -q && farop export pot.nff --triangles -o pot.scr --resolution "
+        "120x90 -q");
+    const Outcome listed = run(k_no_leak_check + "farop plugins -I .");
+    for (const char* reason : {"was built without Python", "ModuleNotFoundError"}) {
+      if ((listed.out + listed.err).find(reason) != std::string::npos) GTEST_SKIP() << reason;
+    }
+    EXPECT_NE(listed.out.find("mine            A z-buffer for triangles"), std::string::npos) << listed.out;
+  }
+  /// mine.py with one line changed, drawn.
+  Outcome changed(const std::string& what, const std::string& by, int status) {
+    run("sed 's/" + what + "/" + by + "/' mine.py > changed.py && ! cmp -s mine.py changed.py");
+    return run(k_no_leak_check + "farop raster pot.scr -o out.ppm --rasterizer changed.py", status);
+  }
+  const std::string k_no_leak_check = "export ASAN_OPTIONS=$ASAN_OPTIONS:detect_leaks=0; ";
+};
+
+TEST_F(PythonRasterizers, DrawWhatTheInternalOneDraws) {
+  run(k_no_leak_check + "farop raster pot.scr -o mine.ppm --rasterizer mine.py");
+  run("farop raster pot.scr -o theirs.ppm && farop compare mine.ppm theirs.ppm --fail 0.005");
+  // Of a file with other polygons it gets their triangles.
+  run("farop export pot.nff -o clipped.scr --resolution 120x90 --from 2 3 2 -q");
+  run(k_no_leak_check + "farop raster clipped.scr -o mine.ppm --rasterizer ./mine.py -q");
+}
+
+TEST_F(PythonRasterizers, FailWithTheLineAndTheirOwnWords) {
+  const auto expect = [&](const std::string& what, const std::string& by, const std::string& message) {
+    const Outcome outcome = changed(what, by, 3);
+    EXPECT_NE(outcome.err.find(message), std::string::npos) << outcome.err;
+  };
+  expect("if area == 0:", "if area == nothing:", "changed.py:20: NameError: name 'nothing' is not defined");
+  expect("if area == 0:", "if area = 0:", "changed.py:20:12: invalid syntax");
+  expect("def end_frame", "def finish", "its class Rasterizer has no method end_frame");
+  expect("class Rasterizer", "class Other", "it defines no class Rasterizer");
+  expect("wants = (\"triangles\",)", "wants = (\"squares\",)",
+         "it wants 'squares', which is none of triangles");
+}
+
+TEST_F(PythonRasterizers, PrintToTheLog) {
+  const Outcome outcome =
+      changed("self.host = host", "print(\"hello\"); print(host.option(\"colour\", \"none\"))", 0);
+  EXPECT_EQ(outcome.out, "");
+  const Outcome verbose =
+      run(k_no_leak_check +
+          "farop raster pot.scr -o out.ppm --rasterizer changed.py --plugin-option colour=red -v");
+  EXPECT_NE(verbose.err.find("hello\nred\n"), std::string::npos) << verbose.err;
 }
 
 TEST_F(Rasterizers, SeeNothingOfABadFlatFile) {

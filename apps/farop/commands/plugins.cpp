@@ -31,9 +31,10 @@ std::string wishes(std::uint32_t wants) {
 }
 
 std::string describe(const FoundLibrary& found) {
-  HostServices& services = *new HostServices({}, {});  // libraries keep pointers to it
-  PluginLibrary library = inspect_plugin_file(found.file);
-  if (library.failure == LoadFailure::none) library = open_plugin(found.file, services);
+  const LoadableRasterizer what = loadable(found.file, {});
+  HostServices& services = *new HostServices(what.options, {});  // libraries keep pointers to it
+  PluginLibrary library = inspect_plugin_file(what.library);
+  if (library.failure == LoadFailure::none) library = open_plugin(what.library, services);
   std::string text = fmt::format(
       "{:<16}{}\n", found.name,
       library.failure == LoadFailure::none ? library.summary : "cannot be used: " + library.message);

@@ -10,6 +10,7 @@
 #include "core/word_reader.h"
 #include "drawer.h"
 #include "export/flat_reader.h"
+#include "geometry/screen_triangles.h"
 #include "picture_library.h"
 #include "session.h"
 
@@ -120,7 +121,9 @@ void run(Session& session, const RasterOptions& options) {
   if (drawing.keep_depth) picture_library().check_depth_path(options.depth_file);
 
   const std::unique_ptr<Drawer> drawer = make_drawer(session, chosen, options.rasterizer, drawing);
-  PolygonCounter counter(drawer->sink());
+  ScreenTriangles triangles(drawer->sink());
+  PolygonCounter counter(drawer->sink().wants().triangles ? static_cast<ScreenPolygonSink&>(triangles)
+                                                          : drawer->sink());
   read_into(session, options, chosen.kind, counter);
   session.report.polygons_loaded = counter.count();
   session.report.raster = {drawer->name(), options.mode, 1};
