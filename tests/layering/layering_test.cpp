@@ -25,6 +25,7 @@ const std::map<std::string, Rooms> k_may_include = {
     {"geometry", {"core", "shading", "scene"}},
     {"raster", {"core", "shading"}},
     {"plugin", {"core", "shading"}},
+    {"isolate", {"core", "shading", "plugin"}},
     {"export", {"core", "shading", "scene"}},
 };
 

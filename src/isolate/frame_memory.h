@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A frame as the rasterizer gets it, with random bytes wherever it must not write.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "isolate/isolation.h"
+#include "isolate/shared_memory.h"
+#include "plugin/plugin_rasterizer.h"
+
+namespace farop::isolate {
+
+/// Where a byte that lies `offset` bytes from the first pixel would be: "pixel (3, 12), 2 rows below the
+/// frame".
+std::string place_of(std::int64_t offset, const farop_frame& frame);
+/// Verdict of writing there: oob.write-before, -stride, -after; empty: it is a pixel of the frame.
+std::string write_verdict(std::int64_t offset, const farop_frame& frame);
+
+/// Memory of one frame at a time. Two take turns, so that each side of the frame has its turn to touch the
+/// no-man's-land that the runner maps around the memory; on the other side is an apron of random bytes.
+class FrameMemory {
+ public:
+  enum class Touches { end, begin };
+  FrameMemory(Touches touches, std::uint64_t seed) : touches_(touches), random_(seed) {}
+
+  /// Makes room for `frame` (row_bytes is set here) and fills it: background, and random bytes elsewhere.
+  /// True: the memory is new.
+  bool prepare(farop_frame& frame);
+  const SharedMemory& memory() const { return memory_; }
+  std::uint64_t offset() const { return offset_; }  ///< of the first pixel
+  std::uint64_t bytes() const { return bytes_; }    ///< from the first pixel to the end of the last
+
+  /// Fetches what the rasterizer has drawn; `pixels` of the frame is set to the copy, which lives until the
+  /// next prepare(). Findings: what was written beside the pixels, at most one of a kind.
+  std::vector<PluginFinding> fetch(farop_frame& frame);
+
+ private:
+  void fill(std::vector<std::byte>& bytes);
+
+  Touches touches_;
+  std::uint64_t random_;
+  SharedMemory memory_;
+  std::uint64_t offset_ = 0, bytes_ = 0;
+  std::vector<std::byte> sent_, got_;
+};
+
+}  // namespace farop::isolate
