@@ -40,6 +40,7 @@ namespace {
 /// Polygons go over as soon as there is this much of them.
 constexpr std::size_t k_batch_bytes = std::size_t{256} << 10;
 constexpr std::uint64_t k_page = 4096;
+constexpr std::int64_t k_least_leak = 128 << 10;                ///< bytes per frame that are worth a word
 constexpr std::size_t k_max_log_bytes = std::size_t{64} << 10;  ///< lines taken per frame
 
 std::uint64_t whole_pages(std::uint64_t bytes) {
@@ -221,6 +222,7 @@ class IsolatedRasterizer::Judge {
       for (PluginFinding& finding : frames_[frame_.number % 2].fetch(frame_)) add(std::move(finding));
     }
     look_at_output();
+    look_at_memory();
     has_frame_ = false;
     judge_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - frame_begun_).count();
   }
@@ -270,6 +272,7 @@ class IsolatedRasterizer::Judge {
     has_frame_ = false;
     serial_ = 0;
     outstanding_.clear();
+    memory_history_.clear();
     hello_.reset();
     loaded_.reset();
 
@@ -279,7 +282,8 @@ class IsolatedRasterizer::Judge {
     start.black_box = &black_box_;
     start.ring = &ring_;
     start.settings.layers = wanted_layers(options_);
-    start.settings.threads = static_cast<std::uint32_t>(std::max(1, options_.limits.threads));
+    const int threads = options_.limits.threads;
+    start.settings.threads = threads <= 1 ? 1 : static_cast<std::uint32_t>(threads) + 1;
     start.settings.memory_bytes = options_.limits.memory_bytes;
     start.settings.cookie = random_cookie();
     start.options = &options_.plugin_options;
@@ -329,6 +333,7 @@ class IsolatedRasterizer::Judge {
     if (const std::string warning = text(loaded.warning); !warning.empty()) {
       PluginFinding finding;
       finding.verdict = "abi.float-state";
+      finding.warning = true;
       finding.message = warning;
       add(std::move(finding));
     }
@@ -427,8 +432,8 @@ class IsolatedRasterizer::Judge {
     const std::size_t length = std::min<std::size_t>(line.length, sizeof line.text);
     log_bytes_ += length;
     if (log_bytes_ > k_max_log_bytes) {
-      return add_once("limit.output", "it logged more than 64 KiB in one frame; the rest is not shown",
-                      "log what went wrong, not what went right");
+      return warn_once("limit.output", "it logged more than 64 KiB in one frame; the rest is not shown",
+                       "log what went wrong, not what went right");
     }
     const std::string words = printable({line.text, length}, k_max_text);
     last_words_ = words;
@@ -571,15 +576,15 @@ class IsolatedRasterizer::Judge {
 
   void note_warnings(std::uint32_t warnings) {
     if ((warnings & k_changed_float) != 0) {
-      add_once("abi.float-state", "it left another rounding mode or switched denormal numbers off",
-               "return with the floating-point settings as you found them; do not link with -ffast-math");
+      warn_once("abi.float-state", "it left another rounding mode or switched denormal numbers off",
+                "return with the floating-point settings as you found them; do not link with -ffast-math");
     }
     if ((warnings & k_changed_flags) != 0) {
-      add_once("abi.cpu-flags", "it left the direction, trap or alignment flag set", "");
+      warn_once("abi.cpu-flags", "it left the direction, trap or alignment flag set", "");
     }
     if ((warnings & (k_changed_mask | k_changed_handler)) != 0) {
-      add_once("abi.signals", "it changed signal handlers or blocked signals",
-               "a rasterizer needs no signals");
+      warn_once("abi.signals", "it changed signal handlers or blocked signals",
+                "a rasterizer needs no signals");
     }
   }
 
@@ -591,16 +596,39 @@ class IsolatedRasterizer::Judge {
   void look_at_output() {
     if (!process_) return;
     if (std::max(process_->out().bytes, process_->err().bytes) > k_max_output) {
-      add_once("limit.output", "it printed more than 64 KiB; the rest is not shown", "printing takes time");
+      warn_once("limit.output", "it printed more than 64 KiB; the rest is not shown", "printing takes time");
     }
+  }
+
+  /// Memory that grows by the same amount from frame to frame of one size.
+  void look_at_memory() {
+    const std::optional<std::uint64_t> bytes = process_->data_bytes();
+    const std::pair<int, int> size{frame_.width, frame_.height};
+    if (!bytes || size != memory_size_) memory_history_.clear();
+    memory_size_ = size;
+    if (!bytes) return;
+    memory_history_.push_back(static_cast<std::int64_t>(*bytes));
+    if (memory_history_.size() < 5) return;
+    if (memory_history_.size() > 5) memory_history_.pop_front();
+    std::int64_t least = std::numeric_limits<std::int64_t>::max(), most = 0;
+    for (std::size_t i = 1; i < memory_history_.size(); ++i) {
+      const std::int64_t growth = memory_history_[i] - memory_history_[i - 1];
+      least = std::min(least, growth), most = std::max(most, growth);
+    }
+    if (least < k_least_leak || most > 2 * least) return;
+    warn_once("memory.leak",
+              fmt::format("its memory grows from frame to frame: {} KiB each",
+                          (memory_history_.back() - memory_history_.front()) / 4 / 1024),
+              "free in end_frame() or destroy() what begin_frame() and polygon() allocate");
   }
 
   void add(PluginFinding finding) { findings_.push_back(std::move(finding)); }
 
-  void add_once(const std::string& verdict, const std::string& message, const std::string& hint) {
+  void warn_once(const std::string& verdict, const std::string& message, const std::string& hint) {
     if (!said_.insert(verdict).second) return;
     PluginFinding finding;
     finding.verdict = verdict;
+    finding.warning = true;
     finding.message = message;
     finding.hint = hint;
     add(std::move(finding));
@@ -634,6 +662,8 @@ class IsolatedRasterizer::Judge {
   std::uint32_t frames_begun_ = 0;
   std::chrono::steady_clock::time_point frame_begun_;
 
+  std::deque<std::int64_t> memory_history_;
+  std::pair<int, int> memory_size_;
   std::string last_words_, last_error_;
   std::size_t log_bytes_ = 0;
   BlackBox box_;

@@ -25,7 +25,7 @@ struct RunnerLimits {
   double cpu_seconds = 60;                              ///< summed over the rasterizer's threads
   double wall_seconds = 305;                            ///< while farop waits for it; catches what sleeps
   std::uint64_t memory_bytes = std::uint64_t{2} << 30;  ///< private memory of the runner
-  int threads = 1;                                      ///< at a time
+  int threads = 1;  ///< 1: only the one it is called on; more: that many beside it, at a time
 };
 
 struct IsolationOptions {
@@ -42,9 +42,10 @@ struct IsolationOptions {
 struct PluginFinding {
   /// crash.*, oob.*, limit.*, abi.*: the verdicts of `farop check`.
   std::string verdict;
-  bool fatal = false;   ///< the process is gone; the next frame starts a new one
-  std::string message;  ///< one line: "null pointer: it read address 0 in polygon 2 (3 corners, ...)"
-  std::string hint;     ///< the remedy, or empty
+  bool fatal = false;    ///< the process is gone; the next frame starts a new one
+  bool warning = false;  ///< to be shown, but right pictures stay right
+  std::string message;   ///< one line: "null pointer: it read address 0 in polygon 2 (3 corners, ...)"
+  std::string hint;      ///< the remedy, or empty
   std::optional<std::uint32_t> polygon;  ///< number within the frame, from 0
   std::vector<std::string> trace;        ///< "fill_row+0x1c", innermost first; hints, not proof
 };

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <ctime>
 #include <utility>
@@ -187,6 +188,20 @@ double RunnerProcess::cpu_seconds() const {
     return 0;
   }
   return static_cast<double>(used.tv_sec) + static_cast<double>(used.tv_nsec) * 1e-9;
+}
+
+std::optional<std::uint64_t> RunnerProcess::data_bytes() const {
+  if (runner_pid_ < 0 || ended_) return std::nullopt;
+  const OwnedDescriptor file(
+      ::open(fmt::format("/proc/{}/statm", runner_pid_).c_str(), O_RDONLY | O_CLOEXEC));
+  std::array<char, 256> text{};
+  unsigned long long pages = 0;
+  // size resident shared text lib data dirty, in pages
+  if (!file || ::read(file.get(), text.data(), text.size() - 1) <= 0 ||
+      std::sscanf(text.data(), "%*u %*u %*u %*u %*u %llu", &pages) != 1) {
+    return std::nullopt;
+  }
+  return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
 void RunnerProcess::start_clocks(const RunnerLimits& limits) {

@@ -79,6 +79,8 @@ class RunnerProcess {
   const Output& err() const { return err_; }
   /// CPU seconds of the runner so far.
   double cpu_seconds() const;
+  /// Its private writable memory, where the system tells.
+  std::optional<std::uint64_t> data_bytes() const;
 
  private:
   using Clock = std::chrono::steady_clock;
