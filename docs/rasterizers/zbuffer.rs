@@ -5,7 +5,7 @@ use std::{mem::{size_of, swap}, os::raw::c_void, panic::{catch_unwind, AssertUnw
 #[repr(C)] pub struct Polygon { struct_size: u32, vertex_count: u32, vertices: *const [Vertex; 3] } // and more
 #[repr(C)] pub struct Frame { struct_size: u32, width: i32, height: i32, subpixel_bits: i32, z_near: i32, z_far: i32,
     max_vertices: u32, number: u32, row_bytes: i64, pixels: *mut u8 }
-#[repr(C)] pub struct Table { struct_size: u32, abi_version: u32, name: *const u8, summary: *const u8, wants: u32,
+#[repr(C)] pub struct Table { size: u32, abi: u32, name: *const u8, summary: *const u8, wants: u32,
     reserved: u32, create: extern "C" fn(*const c_void, *mut *mut ZBuffer) -> i32, destroy: extern "C" fn(*mut ZBuffer),
     begin_frame: extern "C" fn(&mut ZBuffer, &'static Frame) -> i32,
     polygon: extern "C" fn(&mut ZBuffer, &Polygon) -> i32, end_frame: extern "C" fn(&mut ZBuffer) -> i32 }
@@ -44,6 +44,6 @@ extern "C" fn begin_frame(s: &mut ZBuffer, f: &'static Frame) -> i32 {
 extern "C" fn polygon(s: &mut ZBuffer, p: &Polygon) -> i32 { // a panic that left here would end the host
     let v = unsafe { *p.vertices }; catch_unwind(AssertUnwindSafe(|| s.draw(v))).map_or(-4, |_| 0) }
 extern "C" fn end_frame(_: &mut ZBuffer) -> i32 { 0 }
-static TABLE: Table = Table { struct_size: size_of::<Table>() as u32, abi_version: 1 << 16, wants: 1, create,
-    name: b"zbuffer_rs\0".as_ptr(), summary: b"z-buffer\0".as_ptr(), reserved: 0, destroy, begin_frame, polygon, end_frame };
+static TABLE: Table = Table { size: size_of::<Table>() as u32, abi: 1 << 16, wants: 1, reserved: 0, create, destroy,
+    name: b"zbuffer_rs\0".as_ptr(), summary: b"z-buffer in Rust\0".as_ptr(), begin_frame, polygon, end_frame };
 #[no_mangle] pub extern "C" fn farop_rasterizer_entry(_: *const c_void) -> *const Table { &TABLE }
