@@ -23,7 +23,7 @@
 // plane get the same depths. Every value is rounded to nearest once, where it is used.
 //
 // The option trace=yes logs every line of the fill:
-//     farop render scene.nff --rasterizer ./scanline_fill.so --plugin-option trace=yes
+//     farop render scene.nff --rasterizer scanline_fill --plugin-option trace=yes --verbose
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
