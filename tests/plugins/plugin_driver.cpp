@@ -174,6 +174,7 @@ PluginPicture PluginDriver::draw(const PluginFrame& size, std::span<const Plugin
   for (const PluginPolygon& polygon : polygons) {
     frame.max_vertices = std::max(frame.max_vertices, static_cast<std::uint32_t>(polygon.corners.size()));
   }
+  if (size.max_vertices != 0) frame.max_vertices = size.max_vertices;
   frame.number = frame_number_++;
   frame.row_bytes = static_cast<std::int64_t>(row_bytes);
   frame.pixels = memory.data() + k_apron;

@@ -19,6 +19,7 @@ struct PluginFrame {
   std::int32_t z_far = 65535;
   int padding = 5;  ///< bytes behind every row, filled with a pattern and verified after end_frame()
   std::array<std::uint8_t, 3> background{};
+  std::uint32_t max_vertices = 0;  ///< announced to begin_frame(); 0: what the polygons need
 };
 
 /// What polygon() is called with. Normals, eye positions and material are never there, as from a flat file;

@@ -382,6 +382,19 @@ TEST_P(PolygonRasterizer, RefusesCornersOutsideTheFrame) {
   expect_reference_coverage({}, k_lecture);
 }
 
+TEST_P(PolygonRasterizer, SurvivesMoreCornersThanAnnounced) {
+  PluginFrame frame;
+  frame.max_vertices = 3;
+  Corners corners;
+  for (int i = 0; i < 2000; ++i) corners.push_back(vertex(1 + i % 2 * 50 + i % 7, 1 + i * 60 / 2000));
+  try {
+    EXPECT_EQ(drawn_coverage(driver, frame, corners), reference::coverage(corners, 0, 64, 64));
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("polygon returned -3"), std::string::npos) << error.what();
+  }
+  expect_reference_coverage({}, corners);
+}
+
 TEST_P(PolygonRasterizer, TakesThousandsOfTinyPolygons) {
   Random random(30);
   PluginFrame frame;
