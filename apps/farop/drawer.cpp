@@ -7,8 +7,8 @@
 
 #include "command_rasterizer.h"
 #include "core/error.h"
+#include "isolate/isolated_rasterizer.h"
 #include "plugin/plugin_rasterizer.h"
-#include "session.h"
 
 namespace farop::app {
 namespace {
@@ -53,17 +53,16 @@ Error load_error(const std::string& file, const PluginLibrary& library) {
   return {ExitStatus::plugin, fmt::format("{}: {}", printable(file, 4096), library.message), library.hint};
 }
 
-/// Libraries and what they keep pointers to stay until the process ends.
-HostServices& services_of(Session& session, const std::map<std::string, std::string>& options) {
-  return *new HostServices(options,
-                           [&console = session.console](farop_log_level level, const std::string& line) {
-                             // An error is quoted by the failure that follows it, or shown with the picture.
-                             if (level == FAROP_LOG_WARNING) {
-                               console.notice(line);
-                             } else {
-                               console.log("{}", line);
-                             }
-                           });
+/// Where lines go that a rasterizer logs. An error is quoted by the failure that follows it, or shown with
+/// the picture.
+PluginLog log_to(Console& console) {
+  return [&console](farop_log_level level, const std::string& line) {
+    if (level == FAROP_LOG_WARNING) {
+      console.notice(line);
+    } else {
+      console.log("{}", line);
+    }
+  };
 }
 
 /// A user's library, called in this process.
@@ -72,7 +71,8 @@ class LibraryDrawer : public Drawer {
   LibraryDrawer(Session& session, const std::string& file, const LoadableRasterizer& what,
                 const PluginDrawing& drawing)
       : console_(session.console),
-        services_(services_of(session, what.options)),
+        // Libraries keep pointers to it until the process ends.
+        services_(*new HostServices(what.options, log_to(session.console))),
         library_(open(session, file, what.library, services_)),
         rasterizer_(library_, services_, drawing) {}
   ScreenPolygonSink& sink() override { return rasterizer_; }
@@ -82,6 +82,11 @@ class LibraryDrawer : public Drawer {
     if (!error.empty()) console_.notice(fmt::format("rasterizer '{}': {}", library_.name, error));
     if (!rasterizer_.draws_here()) return std::nullopt;
     return rasterizer_.take();
+  }
+  void report(RunReport::Raster& report) override {
+    const PluginTimes& t = rasterizer_.times();
+    report.calls = {t.create.total().elapsed, t.begin_frame.total().elapsed, t.polygon.total().elapsed,
+                    t.end_frame.total().elapsed};
   }
 
  private:
@@ -101,6 +106,50 @@ class LibraryDrawer : public Drawer {
   PluginRasterizer rasterizer_;
 };
 
+/// A user's library in a process of its own.
+class IsolatedDrawer : public Drawer {
+ public:
+  IsolatedDrawer(Session& session, const std::string& file, const LoadableRasterizer& what,
+                 IsolationOptions isolation, const PluginDrawing& drawing)
+      : console_(session.console), file_(file) {
+    isolation.plugin_options = what.options;
+    isolation.log = [log = log_to(console_), this](farop_log_level level, const std::string& line) {
+      if (level >= FAROP_LOG_ERROR) error_ = line;
+      log(level, line);
+    };
+    rasterizer_ = std::make_unique<IsolatedRasterizer>(what.library, isolation, drawing);
+  }
+  ScreenPolygonSink& sink() override { return *rasterizer_; }
+  std::string name() const override { return rasterizer_->description().name; }
+  std::optional<Framebuffer> take() override {
+    if (!error_.empty()) console_.notice(fmt::format("rasterizer '{}': {}", name(), error_));
+    if (!rasterizer_->draws_here()) return std::nullopt;
+    return rasterizer_->take();
+  }
+  void report(RunReport::Raster& report) override {
+    const RunnerReport run = rasterizer_->report();
+    report.calls = {run.runner.create, run.runner.begin_frame, run.runner.polygon, run.runner.end_frame};
+    for (const IsolationLayer& layer : run.layers) {
+      if (layer.holds) report.walls.push_back(layer.id);
+    }
+    for (const PluginFinding& finding : rasterizer_->findings()) {
+      console_.notice(fmt::format("rasterizer '{}': {} ({})", name(), finding.message, finding.verdict));
+    }
+    show_output("standard output", run.out);
+    show_output("standard error", run.err);
+  }
+
+ private:
+  void show_output(const char* where, const std::string& text) {
+    if (!text.empty()) console_.log("printed to {}:\n{}", where, text);
+  }
+
+  Console& console_;
+  std::string file_;
+  std::string error_;  ///< last line that it logged as one
+  std::unique_ptr<IsolatedRasterizer> rasterizer_;
+};
+
 /// Hands on what it gets with the colour of a polygon's first corner in all of its corners.
 class FlatShading : public Drawer, ScreenPolygonSink {
  public:
@@ -108,6 +157,7 @@ class FlatShading : public Drawer, ScreenPolygonSink {
   ScreenPolygonSink& sink() override { return *this; }
   std::string name() const override { return inner_->name(); }
   std::optional<Framebuffer> take() override { return inner_->take(); }
+  void report(RunReport::Raster& report) override { inner_->report(report); }
 
  private:
   PolygonWants wants() const override { return inner_->sink().wants(); }
@@ -165,11 +215,17 @@ std::unique_ptr<Drawer> make_drawer(Session& session, const ChosenRasterizer& ra
     case RasterizerKind::command:
       drawer = std::make_unique<CommandDrawer>(rasterizer.command, options.samples);
       break;
-    case RasterizerKind::library:
-      drawer = std::make_unique<LibraryDrawer>(session, rasterizer.file,
-                                               loadable(rasterizer.file, plugin_options(how)),
-                                               PluginDrawing{options.samples, options.background});
+    case RasterizerKind::library: {
+      const LoadableRasterizer what = loadable(rasterizer.file, plugin_options(how));
+      const PluginDrawing drawing{options.samples, options.background};
+      if (how.in_process) {
+        drawer = std::make_unique<LibraryDrawer>(session, rasterizer.file, what, drawing);
+      } else {
+        drawer = std::make_unique<IsolatedDrawer>(session, rasterizer.file, what, isolation_options(how, {}),
+                                                  drawing);
+      }
       break;
+    }
   }
   if (options.mode == DrawMode::flat) drawer = std::make_unique<FlatShading>(std::move(drawer));
   return drawer;

@@ -12,10 +12,9 @@
 #include "core/screen_polygon.h"
 #include "raster/internal_rasterizer.h"
 #include "rasterizer_options.h"
+#include "session.h"
 
 namespace farop::app {
-
-class Session;
 
 class Drawer {
  public:
@@ -25,6 +24,9 @@ class Drawer {
   virtual std::string name() const = 0;
   /// The finished picture; nothing from one that draws nothing, or elsewhere.
   virtual std::optional<Framebuffer> take() = 0;
+  /// After the frame, or what there was of it: adds what is known of the rasterizer's calls, and says what it
+  /// did that it should not have done.
+  virtual void report(RunReport::Raster& /*report*/) {}
 };
 
 /// What a picture is drawn with. `flat`: each polygon in its first corner's colour (the geometry stage has

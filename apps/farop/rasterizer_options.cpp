@@ -87,6 +87,18 @@ void add_rasterizer_options(CLI::App& command, RasterizerOptions& options) {
             ->type_name("DIR")
             ->expected(1)
             ->take_all());
+  group(command.add_option("--isolation", options.isolation, "walls around it; strict: or not at all [auto]")
+            ->check(CLI::IsMember({"auto", "strict", "off"}))
+            ->type_name("auto|strict|off"));
+  group(command.add_option("--cpu", options.cpu_seconds, "processor seconds it may take for a frame [60]")
+            ->check(CLI::PositiveNumber)
+            ->type_name("S"));
+  group(command.add_option("--wall", options.wall_seconds, "seconds by the clock that it may take [305]")
+            ->check(CLI::PositiveNumber)
+            ->type_name("S"));
+  group(command.add_option("--memory", options.memory_megabytes, "memory that it may take, megabytes [2048]")
+            ->check(CLI::PositiveNumber)
+            ->type_name("MB"));
   group(command.add_flag("--in-process", options.in_process, "call it in this process, for debuggers"));
 }
 
@@ -101,6 +113,23 @@ std::map<std::string, std::string> plugin_options(const RasterizerOptions& optio
     table[pair.substr(0, equals)] = pair.substr(equals + 1);
   }
   return table;
+}
+
+IsolationOptions isolation_options(const RasterizerOptions& options, PluginLog log) {
+  IsolationOptions isolation;
+  isolation.isolation = options.isolation == "strict" ? Isolation::strict
+                        : options.isolation == "off"  ? Isolation::off
+                                                      : Isolation::automatic;
+  RunnerLimits& limits = isolation.limits;
+  if (options.cpu_seconds) {
+    limits.cpu_seconds = *options.cpu_seconds;
+    limits.wall_seconds = 5 * *options.cpu_seconds + 5;  // what sleeps is caught too, but later
+  }
+  limits.wall_seconds = options.wall_seconds.value_or(limits.wall_seconds);
+  if (options.memory_megabytes)
+    limits.memory_bytes = static_cast<std::uint64_t>(*options.memory_megabytes * 1e6);
+  isolation.log = std::move(log);
+  return isolation;
 }
 
 LoadableRasterizer loadable(const std::string& file, std::map<std::string, std::string> options) {

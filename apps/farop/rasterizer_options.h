@@ -5,8 +5,11 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "isolate/isolation.h"
 
 namespace farop::app {
 
@@ -16,6 +19,9 @@ struct RasterizerOptions {
   std::vector<std::string> key_values;  ///< --plugin-option K=V
   std::vector<std::string> folders;     ///< -I
   bool in_process = false;
+  std::string isolation = "auto";
+  std::optional<double> cpu_seconds, wall_seconds;  ///< per frame
+  std::optional<double> memory_megabytes;
 };
 
 /// Adds the group "Rasterizer".
@@ -45,6 +51,9 @@ struct LoadableRasterizer {
   std::map<std::string, std::string> options;
 };
 LoadableRasterizer loadable(const std::string& file, std::map<std::string, std::string> options);
+
+/// How far a library is shut in, as the options say; `log` gets what it logs. Throws Error(usage).
+IsolationOptions isolation_options(const RasterizerOptions& options, PluginLog log);
 
 /// Folders that are searched, in order, whether they exist or not.
 std::vector<std::filesystem::path> plugin_folders(const std::vector<std::string>& first);

@@ -35,6 +35,12 @@ struct RunReport {
   struct Raster {
     std::string rasterizer, mode;
     int samples = 1;
+    /// Seconds inside a user's rasterizer, by function; polygon is the sum over all polygons.
+    struct Calls {
+      double create = 0, begin_frame = 0, polygon = 0, end_frame = 0;
+    };
+    std::optional<Calls> calls;
+    std::vector<std::string> walls;  ///< layers of isolation that stood
   };
   std::optional<Raster> raster;
   bool sink_writes = false;  ///< the polygons went to a file, not to a rasterizer

@@ -123,6 +123,13 @@ void write_stats(const Session& session, ExitStatus status) {
     json["raster"] = {{"rasterizer", report.raster->rasterizer},
                       {"mode", report.raster->mode},
                       {"samples", report.raster->samples}};
+    if (const auto& calls = report.raster->calls) {
+      json["raster"]["calls"] = {{"create", calls->create},
+                                 {"begin_frame", calls->begin_frame},
+                                 {"polygon", calls->polygon},
+                                 {"end_frame", calls->end_frame}};
+      json["raster"]["isolation"] = report.raster->walls;
+    }
   }
   Json timers = Json::object();
   add_timer(timers, "parse", session.clocks.parse);

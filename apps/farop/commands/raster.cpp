@@ -12,6 +12,7 @@
 #include "export/flat_reader.h"
 #include "geometry/screen_triangles.h"
 #include "picture_library.h"
+#include "repeat_file.h"
 #include "session.h"
 
 namespace farop::app {
@@ -70,38 +71,48 @@ std::string standard_input() {
   return text;
 }
 
-/// Reads the flat file into `sink`. A user's rasterizer is told the largest polygon first and never sees a
-/// part of a bad file: for it the file is read twice, from memory when it is standard input.
-void read_into(Session& session, const RasterOptions& options, RasterizerKind kind, ScreenPolygonSink& sink) {
-  const std::string& path = options.input.files.front();
-  FlatReadOptions reading;
-  reading.y_down = options.y_down;
-  reading.keep_rows = kind == RasterizerKind::library;
-  const auto read_from = [&](WordReader& reader, const char* what, ScreenPolygonSink& into) {
-    reading.progress = session.console.progress(what);
-    const TimedSlice slice(session.clocks.drawing.sink);  // reading and drawing alternate polygon by polygon
-    const bool whole = read_flat(reader, session.console, into, reading);
-    session.console.end_progress();
-    if (!whole) throw Error(ExitStatus::input, "");
-  };
-  const std::optional<std::string> text =
-      kind == RasterizerKind::library && path == "-" ? std::optional(standard_input()) : std::nullopt;
-  const auto read = [&](const char* what, ScreenPolygonSink& into) {
-    if (text) {
-      WordReader reader(*text, "<stdin>");
-      read_from(reader, what, into);
-    } else {
-      WordReader reader(path);
-      read_from(reader, what, into);
-    }
-  };
-  if (kind == RasterizerKind::library) {
+/// The flat file, which can be read several times: from memory when it is standard input. A user's rasterizer
+/// is told the largest polygon first and never sees a part of a bad file, so for it the file is read twice.
+class FlatInput {
+ public:
+  FlatInput(Session& session, const RasterOptions& options, RasterizerKind kind)
+      : session_(session), path_(options.input.files.front()) {
+    reading_.y_down = options.y_down;
+    if (kind != RasterizerKind::library) return;
+    reading_.keep_rows = true;
+    if (path_ == "-") text_ = standard_input();
     LargestPolygon largest;
     read("checking", largest);
-    reading.max_vertices = largest.vertices;
+    reading_.max_vertices = largest.vertices;
   }
-  read("drawing", sink);
-}
+
+  /// Throws Error(input) when the file is at fault, after that has been reported.
+  void read_into(ScreenPolygonSink& sink) const { read("drawing", sink); }
+
+ private:
+  void read(const char* what, ScreenPolygonSink& sink) const {
+    if (text_) {
+      WordReader reader(*text_, "<stdin>");
+      read_from(reader, what, sink);
+    } else {
+      WordReader reader(path_);
+      read_from(reader, what, sink);
+    }
+  }
+  void read_from(WordReader& reader, const char* what, ScreenPolygonSink& sink) const {
+    FlatReadOptions reading = reading_;
+    reading.progress = session_.console.progress(what);
+    const TimedSlice slice(session_.clocks.drawing.sink);  // reading and drawing alternate polygon by polygon
+    const bool whole = read_flat(reader, session_.console, sink, reading);
+    session_.console.end_progress();
+    if (!whole) throw Error(ExitStatus::input, "");
+  }
+
+  Session& session_;
+  const std::string& path_;
+  std::optional<std::string> text_;
+  FlatReadOptions reading_;
+};
 
 void run(Session& session, const RasterOptions& options) {
   if (options.input.files.size() != 1) {
@@ -121,13 +132,27 @@ void run(Session& session, const RasterOptions& options) {
   if (drawing.keep_depth) picture_library().check_depth_path(options.depth_file);
 
   const std::unique_ptr<Drawer> drawer = make_drawer(session, chosen, options.rasterizer, drawing);
-  ScreenTriangles triangles(drawer->sink());
-  PolygonCounter counter(drawer->sink().wants().triangles ? static_cast<ScreenPolygonSink&>(triangles)
-                                                          : drawer->sink());
-  read_into(session, options, chosen.kind, counter);
-  session.report.polygons_loaded = counter.count();
-  session.report.raster = {drawer->name(), options.mode, 1};
-  const std::optional<Framebuffer> picture = drawer->take();
+  session.report.raster = {drawer->name(), options.mode, 1, {}, {}};
+  const FlatInput input(session, options, chosen.kind);
+  const auto play = [&](ScreenPolygonSink& sink) {
+    ScreenTriangles triangles(sink);
+    const bool split = drawer->sink().wants().triangles;
+    PolygonCounter counter(split ? static_cast<ScreenPolygonSink&>(triangles) : sink);
+    input.read_into(counter);
+    return counter;
+  };
+  std::optional<Framebuffer> picture;
+  try {
+    const PolygonCounter played = play(drawer->sink());
+    session.report.polygons_loaded = played.count();
+    session.report.picture = played.frame().resolution;
+    picture = drawer->take();
+  } catch (const PluginFailure& failure) {
+    drawer->report(*session.report.raster);
+    explain_failure(session, failure, chosen, play);
+    throw;
+  }
+  drawer->report(*session.report.raster);
   if (picture) {
     const TimedSlice slice(session.clocks.write);
     write_picture_file(output, *picture);
@@ -137,12 +162,13 @@ void run(Session& session, const RasterOptions& options) {
       session.report.outputs.push_back(options.depth_file);
     }
   }
-  const Resolution& r = counter.frame().resolution;
+  const Resolution& r = session.report.picture;
   session.console.summary("{}: {} polygons, {} x {} ({:.3f} s)",
                           !picture        ? "no picture"
                           : output == "-" ? "standard output"
                                           : output,
-                          counter.count(), r.x, r.y, session.clocks.drawing.sink.total().elapsed);
+                          *session.report.polygons_loaded, r.x, r.y,
+                          session.clocks.drawing.sink.total().elapsed);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "core/limits.h"
 #include "drawer.h"
 #include "picture_library.h"
+#include "repeat_file.h"
 #include "session.h"
 
 namespace farop::app {
@@ -88,9 +89,22 @@ void run(Session& session, const RenderOptions& options) {
   drawing.background = session.scene.view.background.value_or(Rgb{});
   drawing.lights_eye = session.report.setup->lights_eye;
   const std::unique_ptr<Drawer> drawer = make_drawer(session, chosen, options.rasterizer, drawing);
-  session.report.raster = {drawer->name(), options.drawing.mode, drawing.samples};
-  draw(session, geometry, drawer->sink());
-  const std::optional<Framebuffer> picture = drawer->take();
+  session.report.raster = {drawer->name(), options.drawing.mode, drawing.samples, {}, {}};
+  std::optional<Framebuffer> picture;
+  try {
+    draw(session, geometry, drawer->sink());
+    picture = drawer->take();
+  } catch (const PluginFailure& failure) {
+    drawer->report(*session.report.raster);
+    GeometryOptions again = geometry;
+    again.triangles = again.triangles || drawer->sink().wants().triangles;
+    explain_failure(session, failure, chosen, [&](ScreenPolygonSink& sink) {
+      GeometryClocks clocks;
+      run_geometry(session.scene, *session.report.setup, again, sink, clocks);
+    });
+    throw;
+  }
+  drawer->report(*session.report.raster);
   if (picture) write_picture(session, *picture, output, options.drawing.depth_file);
   if (!picture && !null)
     session.console.notice("the rasterizer draws elsewhere: there is no picture to write");
