@@ -130,7 +130,7 @@ void InternalRasterizer::polygons(const ScreenPolygonBatch& batch) {
     }
   }
   if (options_.mode == DrawMode::phong && (batch.normals.size() != batch.vertices.size() ||
-                                     batch.eye_positions.size() != batch.vertices.size())) {
+                                           batch.eye_positions.size() != batch.vertices.size())) {
     broken_contract("normals or eye positions missing");
   }
   counts_.polygons += batch.polygons.size();
