@@ -70,6 +70,7 @@ CommandLine::CommandLine()
   add_info(*this);
   add_compare(*this);
   add_plugins(*this);
+  add_doctor(*this);
   add_completion(*this);
   add_man(*this);
 }

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+#include <linux/perf_event.h>
+#include <sys/syscall.h>
+#include <sys/utsname.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <string_view>
+#include <thread>
+
+#include "command_line.h"
+#include "core/output_file.h"
+#include "isolate/isolation.h"
+#include "program_files.h"
+#include "session.h"
+#include "version.h"
+
+namespace farop::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// One line: yes or no, what, why, and how to get it.
+std::string row(bool there, std::string_view what, std::string_view why, std::string_view remedy) {
+  std::string line = fmt::format("  {:<4}{:<18}{}", there ? "yes" : "no", what, why);
+  if (!there && !remedy.empty()) line += fmt::format("{}{}", why.empty() ? "" : "; ", remedy);
+  return line + "\n";
+}
+
+/// A program's path in the PATH, or "".
+std::string program(std::string_view name) {
+  const char* const path = std::getenv("PATH");
+  for (std::string_view rest = path == nullptr ? "" : path; !rest.empty();) {
+    const std::size_t colon = rest.find(':');
+    const fs::path candidate = fs::path(rest.substr(0, colon)) / name;
+    if (::access(candidate.c_str(), X_OK) == 0 && !fs::is_directory(candidate)) return candidate;
+    rest = colon == std::string_view::npos ? std::string_view() : rest.substr(colon + 1);
+  }
+  return "";
+}
+
+std::string isolation_section() {
+  std::string text =
+      "Isolation of users' rasterizers (farop render --rasterizer; --isolation strict needs A to D)\n";
+  try {
+    for (const IsolationLayer& layer : probe_isolation()) {
+      text += row(layer.holds, layer.id, layer.why, layer.how_to_enable);
+    }
+  } catch (const Error& error) {
+    text += row(false, "runner", error.what(), error.hint());
+  }
+  return text;
+}
+
+/// Opens a hardware counter of this process, as --trace and timers would.
+std::string counter_failure(std::uint64_t event) {
+  perf_event_attr attributes{};
+  attributes.type = PERF_TYPE_HARDWARE;
+  attributes.size = sizeof attributes;
+  attributes.config = event;
+  attributes.exclude_kernel = 1;
+  attributes.exclude_hv = 1;
+  const long descriptor = ::syscall(SYS_perf_event_open, &attributes, 0, -1, -1, 0);
+  if (descriptor < 0) return std::strerror(errno);
+  ::close(static_cast<int>(descriptor));
+  return "";
+}
+
+std::string counters_section() {
+  const std::string remedy =
+      "sysctl kernel.perf_event_paranoid=2 on the machine itself; virtual machines often have none";
+  std::string text = "Counters\n";
+  const std::pair<const char*, std::uint64_t> events[] = {{"cycles", PERF_COUNT_HW_CPU_CYCLES},
+                                                          {"instructions", PERF_COUNT_HW_INSTRUCTIONS}};
+  for (const auto& [name, event] : events) {
+    const std::string failure = counter_failure(event);
+    text += row(failure.empty(), name, failure, remedy);
+  }
+  return text;
+}
+
+std::string machine_section() {
+  utsname system{};
+  ::uname(&system);
+  std::string text = fmt::format("Machine\n  {} {} {}, {} processors\n", system.sysname, system.release,
+                                 system.machine, std::thread::hardware_concurrency());
+#if defined(__x86_64__)
+  text += row(__builtin_cpu_supports("sse4.2") != 0, "SSE4.2", "", "");
+  text += row(__builtin_cpu_supports("avx2") != 0, "AVX2", "", "");
+  text += row(__builtin_cpu_supports("avx512f") != 0, "AVX-512", "", "");
+#endif
+  return text;
+}
+
+std::string toolchains_section() {
+  struct Tool {
+    const char *program, *what, *package;
+  };
+  const Tool tools[] = {{"cc", "C", "gcc"},
+                        {"c++", "C++", "g++"},
+                        {"rustc", "Rust", "rustc"},
+                        {"zig", "Zig", ""},
+                        {"gfortran", "Fortran", "gfortran"},
+                        {"make", "make", "make"}};
+  std::string text = "Languages for rasterizers\n";
+  for (const Tool& tool : tools) {
+    const std::string path = program(tool.program);
+    const std::string remedy =
+        *tool.package == 0 ? "Debian has no package of it" : fmt::format("apt-get install {}", tool.package);
+    text += row(!path.empty(), tool.what, path, remedy);
+  }
+  const fs::path adapter = library_file("farop-python.so");
+  text += row(fs::exists(adapter), "Python", fs::exists(adapter) ? adapter.string() : "",
+              "this farop was built where libpython3-dev was missing");
+  return text;
+}
+
+void run() {
+  std::string text = fmt::format("farop {}\n\n", k_version);
+  text += isolation_section() + "\n" + counters_section() + "\n" + machine_section() + "\n" +
+          toolchains_section();
+  OutputFile file("-");
+  file.write(text);
+  file.commit();
+}
+
+}  // namespace
+
+void add_doctor(CommandLine& line) {
+  CLI::App& command =
+      line.add_command("doctor", "what this machine offers: isolation, counters, SIMD, languages",
+                       {{"farop doctor", "yes or no, why, and how to get what is missing"},
+                        {"farop doctor | grep -w no", "what is missing"}},
+                       [](Session&) { run(); });
+  line.add_report_options(command);
+}
+
+}  // namespace farop::app
