@@ -717,6 +717,7 @@ bool Solids::in_front(std::uint32_t a, std::uint32_t b, std::int32_t column) {
   if (depth_a != depth_b) return depth_a < depth_b;
   const Polygon &p = polygons_[a], &q = polygons_[b];
   if (p.in_surface && p.surface == q.surface && (p.back_facing || q.back_facing)) {
+    if (p.back_facing != q.back_facing) return q.back_facing;
     const bool p_is_back = is_back_face(p), q_is_back = is_back_face(q);
     if (p_is_back != q_is_back) return q_is_back;
   }
