@@ -75,13 +75,22 @@ struct Edge {
   std::int32_t step = 0, excess_step = 0;  ///< a line up, x grows by step + excess_step / denominator
   std::int32_t end_line = 0;               ///< the first line above it
   std::uint32_t polygon[2] = {k_none, k_none};
-  std::uint32_t low = 0, high = 0;  ///< its ends, in the list of all corners
+  std::uint32_t ends = 0;  ///< into the list of all ends
 
   void step_up() {
-    column += step;
     excess -= excess_step;
-    if (excess < 0) excess += denominator, ++column;
+    const std::int32_t carry = excess >> 31;  // -1 below zero, else 0: no branch, it could not be foretold
+    excess += carry & denominator;
+    column += step - carry;
   }
+};
+
+/// Of an edge, in the list of all corners. Not in the Edge itself, which is copied a lot.
+struct EdgeEnds {
+  std::uint32_t low = 0, high = 0;
+  std::int32_t low_y = 0;
+  double per_denominator = 1;      ///< 1 / Edge::denominator
+  double low_z = 0, z_change = 0;  ///< up to the other end
 };
 
 /// From left to right.
@@ -187,6 +196,7 @@ class Solids {
   void cross(std::uint32_t active);
   void enter(std::uint32_t polygon, std::uint32_t crossing);
   void leave(std::uint32_t polygon);
+  void replace(std::uint32_t from, std::uint32_t to, std::uint32_t crossing);
   void make_candidate(std::uint32_t polygon);
   bool must_be_careful() const;
   void emit_trusting(std::int32_t column, std::int32_t end);
@@ -196,10 +206,11 @@ class Solids {
 
   // depths and colours on it
   void pair_crossings();
-  template <class Attribute>
-  Ends ends(const Polygon& polygon, const Attribute& attribute);
+  template <class At>
+  Ends ends(const Polygon& polygon, const At& at);
   std::int64_t depth(std::uint32_t polygon, std::int32_t column);
-  bool in_front(std::uint32_t a, std::uint32_t b, std::int32_t column);
+  void find_slope(Polygon& polygon);
+  bool in_front(std::uint32_t a, std::int64_t depth_a, std::uint32_t b, std::int64_t depth_b);
   std::int32_t comes_through(std::uint32_t a, std::uint32_t b, std::int32_t column, std::int32_t end);
   std::uint32_t make_ramp(const Polygon& polygon, std::int32_t column);
 
@@ -220,12 +231,13 @@ class Solids {
   std::uint64_t last_surface_ = 0;
   std::uint32_t last_surface_number_ = 0;
   int back_face_sign_ = 0;  ///< 0: not asked for yet
-  bool one_solid_ = false;  ///< everything in the tables is one
+  bool several_ = false;    ///< variants 2 and 3 draw anything but one solid
 
   std::vector<Edge> edge_table_, sorted_;  ///< by bucket once sorted
-  std::vector<std::int32_t> first_line_;   ///< of the edges, before they are sorted
-  std::vector<std::uint32_t> bucket_;      ///< line -> its first edge
-  std::vector<Slot> slots_;                ///< hash table: ids -> edge
+  std::vector<EdgeEnds> edge_ends_;
+  std::vector<std::int32_t> first_line_;  ///< of the edges, before they are sorted
+  std::vector<std::uint32_t> bucket_;     ///< line -> its first edge
+  std::vector<Slot> slots_;               ///< hash table: ids -> edge
 
   // The current line.
   std::int32_t line_ = 0;
@@ -321,7 +333,7 @@ void Solids::find_solids() {
 }
 
 void Solids::build_edge_table() {
-  edge_table_.clear();
+  edge_table_.clear(), edge_ends_.clear();
   first_line_.clear();
   back_face_sign_ = 0;
   if (variant_ >= 2) {
@@ -330,12 +342,11 @@ void Solids::build_edge_table() {
     while (slots < corners_.size()) slots *= 2;  // edges are half as many: at most half full
     slots_.assign(slots, {0, 0, 0, k_none});
   }
-  one_solid_ = variant_ >= 2 && surfaces_.size() == 1 && surfaces_[0].solid;
   for (std::uint32_t p = 0; p < polygons_.size(); ++p) {
     if (variant_ == 3 && surfaces_[polygons_[p].surface].solid && is_back_face(polygons_[p])) continue;
     enter_polygon(p);
   }
-  one_solid_ = one_solid_ && surfaces_[0].solid;
+  several_ = variant_ >= 2 && !(surfaces_.size() == 1 && surfaces_[0].solid);
   sort_into_buckets();
 }
 
@@ -416,8 +427,9 @@ bool Solids::enter_second_polygon(std::uint32_t low, std::uint32_t high, std::ui
     const auto same_place = [&](const farop_vertex& a, const farop_vertex& b) {
       return a.x == b.x && a.y == b.y && a.z == b.z;
     };
+    const EdgeEnds& ends = edge_ends_[edge.ends];
     const bool same =
-        same_place(corners_[edge.low], corners_[low]) && same_place(corners_[edge.high], corners_[high]);
+        same_place(corners_[ends.low], corners_[low]) && same_place(corners_[ends.high], corners_[high]);
     if (same && edge.polygon[1] == k_none) {
       edge.polygon[1] = polygon;
       return true;
@@ -433,18 +445,23 @@ void Solids::enter_edge(std::uint32_t low, std::uint32_t high, std::int32_t firs
                         std::uint32_t polygon) {
   const std::int32_t x = corners_[low].x, y = corners_[low].y;
   const int bits = frame_->subpixel_bits;
-  const std::int64_t dx = corners_[high].x - x, dy = corners_[high].y - y;
-  const auto floor_div = [](std::int64_t p, std::int64_t q) { return p / q - (p % q < 0 ? 1 : 0); };
+  const std::int32_t dx = corners_[high].x - x, dy = corners_[high].y - y;
   Edge edge;
   edge.end_line = end_line;
   edge.polygon[0] = polygon;
-  edge.low = low, edge.high = high;
-  edge.denominator = static_cast<std::int32_t>(dy << bits);
-  const std::int64_t crossing = x * dy + ((std::int64_t{first_line} << bits) - y) * dx;  // times denominator
-  edge.column = static_cast<std::int32_t>(-floor_div(-crossing, edge.denominator));
+  edge.denominator = dy << bits;
+  edge.ends = static_cast<std::uint32_t>(edge_ends_.size());
+  edge_ends_.push_back({low, high, y, 1.0 / edge.denominator, static_cast<double>(corners_[low].z),
+                        static_cast<double>(corners_[high].z - corners_[low].z)});
+  edge.step = dx / dy;
+  if (edge.step * dy > dx) --edge.step;  // rounds down, not towards zero
+  edge.excess_step = (dx - edge.step * dy) << bits;
+  // In units of 1 / (denominator << bits): the first line lies `up` above the lower end, a part of a line.
+  const std::int64_t up = (first_line << bits) - y;
+  const std::int64_t crossing = std::int64_t{x} * dy + up * dx;
+  edge.column = -((-x) >> bits);  // where the lower end is
+  if (up != 0) edge.column = static_cast<std::int32_t>((crossing + edge.denominator - 1) / edge.denominator);
   edge.excess = static_cast<std::int32_t>(std::int64_t{edge.column} * edge.denominator - crossing);
-  edge.step = static_cast<std::int32_t>(floor_div(dx, dy));
-  edge.excess_step = static_cast<std::int32_t>((dx - edge.step * dy) << bits);
   edge_table_.push_back(edge);
   first_line_.push_back(first_line);
 }
@@ -543,15 +560,11 @@ void Solids::cross(std::uint32_t active) {
     enter_or_leave(b, 2 * active + 1);
   } else {
     // From a face to its neighbour: what goes for one goes for the other, as they meet here.
-    const std::uint32_t side = polygons_[a].in ? 1 : 0;
-    const std::uint32_t from = side == 1 ? a : b, to = side == 1 ? b : a;
-    leave(from);
-    enter(to, 2 * active + side);
-    if (visible_ == from) {
-      visible_ = to;
-    } else if (polygons_[from].candidate_at == column_number_) {
-      make_candidate(to);
-    }
+    const std::uint32_t side = polygons_[a].in;
+    const std::uint32_t from = active_[active].polygon[1 - side], to = active_[active].polygon[side];
+    replace(from, to, 2 * active + side);
+    if (visible_ == from) visible_ = to;
+    if (polygons_[from].candidate_at == column_number_) make_candidate(to);
   }
 }
 
@@ -563,12 +576,23 @@ void Solids::enter(std::uint32_t polygon, std::uint32_t crossing) {
   p.column = active_[crossing / 2].column;
   p.place = static_cast<std::uint32_t>(in_.size());
   in_.push_back(polygon);
-  if (variant_ == 1 || one_solid_) return;
+  if (!several_) return;
   Surface& surface = surfaces_[p.surface];
   if (!surface.solid)
     ++others_in_;
   else if (surface.in++ == 0)
     ++solids_in_;
+}
+
+// leave() and enter() for two of one surface.
+void Solids::replace(std::uint32_t from, std::uint32_t to, std::uint32_t crossing) {
+  Polygon &p = polygons_[from], &q = polygons_[to];
+  p.in = false, q.in = true;
+  q.slope_known = false;
+  q.left = crossing;
+  q.column = active_[crossing / 2].column;
+  q.place = p.place;
+  in_[q.place] = to;
 }
 
 void Solids::leave(std::uint32_t polygon) {
@@ -577,7 +601,7 @@ void Solids::leave(std::uint32_t polygon) {
   in_[p.place] = in_.back();
   polygons_[in_.back()].place = p.place;
   in_.pop_back();
-  if (variant_ == 1 || one_solid_) return;
+  if (!several_) return;
   Surface& surface = surfaces_[p.surface];
   if (!surface.solid)
     --others_in_;
@@ -591,8 +615,7 @@ void Solids::make_candidate(std::uint32_t polygon) {
 }
 
 bool Solids::must_be_careful() const {
-  if (variant_ == 1) return true;
-  return !one_solid_ && (others_in_ > 0 || solids_in_ > 1);
+  return variant_ == 1 || others_in_ > 0 || solids_in_ > 1;
 }
 
 // What is visible from this column to the next end point, if all that is there belongs to one solid: nothing
@@ -618,8 +641,13 @@ void Solids::emit_trusting(std::int32_t column, std::int32_t end) {
 void Solids::emit_careful(const std::vector<std::uint32_t>& polygons, std::int32_t column, std::int32_t end) {
   for (std::int32_t cut = end; column < end; column = cut, cut = end) {
     nearest_among(polygons, column);
+    std::int64_t limit = depth(visible_, cut - 1);
     for (const std::uint32_t polygon : polygons) {
-      if (polygon != visible_) cut = comes_through(polygon, visible_, column, cut);
+      if (polygon == visible_ || cut == column + 1) continue;
+      ++count_.depth_comparisons;
+      if (!in_front(polygon, depth(polygon, cut - 1), visible_, limit)) continue;
+      cut = comes_through(polygon, visible_, column, cut);
+      limit = depth(visible_, cut - 1);
     }
     if (cut < end) ++count_.spans;
     emit(column, cut);
@@ -630,11 +658,15 @@ void Solids::emit_careful(const std::vector<std::uint32_t>& polygons, std::int32
 bool Solids::nearest_among(const std::vector<std::uint32_t>& polygons, std::int32_t column) {
   bool alone = true;
   visible_ = polygons[0];
+  std::int64_t nearest = depth(visible_, column);
   for (std::size_t i = 1; i < polygons.size(); ++i) {
-    const bool nearer = in_front(polygons[i], visible_, column);
-    const bool as_near = depth(polygons[i], column) == depth(visible_, column);
-    if (nearer || as_near) alone = !as_near;
-    if (nearer) visible_ = polygons[i];
+    ++count_.depth_comparisons;
+    const std::int64_t here = depth(polygons[i], column);
+    if (here <= nearest) {
+      alone = here < nearest;
+      if (in_front(polygons[i], here, visible_, nearest)) visible_ = polygons[i];
+      nearest = here;
+    }
   }
   return alone;
 }
@@ -673,47 +705,47 @@ void Solids::pair_crossings() {
   }
 }
 
-// Anything that is linear along the segment of a polygon on this line: on the edges that bound it.
-// The segment is `width` columns wide and its first pixel lies `to_first` columns from its left end.
-template <class Attribute>
-Solids::Ends Solids::ends(const Polygon& polygon, const Attribute& attribute) {
+// Anything that is linear along the segment of a polygon on this line: what `at` says of the edges that bound
+// it, at a part 0 .. 1 of their height. The segment is `width` columns wide, and its first pixel lies
+// `to_first` columns from its left end.
+template <class At>
+Solids::Ends Solids::ends(const Polygon& polygon, const At& at) {
   if (!paired_) pair_crossings();
   const Edge &left = active_[polygon.left / 2], &right = active_[right_of_[polygon.left]];
-  const auto at = [&](const Edge& edge) {
-    const farop_vertex &low = corners_[edge.low], &high = corners_[edge.high];
-    const double along = static_cast<double>((line_ << frame_->subpixel_bits) - low.y) / (high.y - low.y);
-    const double from = attribute(low), to = attribute(high);
-    return from + (to - from) * along;
+  const EdgeEnds &left_ends = edge_ends_[left.ends], &right_ends = edge_ends_[right.ends];
+  const int bits = frame_->subpixel_bits;  // denominator = height << bits
+  const auto along = [&](const EdgeEnds& edge) {
+    return (((line_ << bits) - edge.low_y) << bits) * edge.per_denominator;
   };
   Ends ends;
-  ends.left = at(left), ends.right = at(right);
+  ends.left = at(left_ends, along(left_ends)), ends.right = at(right_ends, along(right_ends));
   // Sums of terms that are never negative: however thin the segment, no digits are lost.
-  ends.to_first = static_cast<double>(left.excess) / left.denominator;
+  ends.to_first = left.excess * left_ends.per_denominator;
   ends.width = (right.column - 1 - left.column) + ends.to_first +
-               static_cast<double>(right.denominator - right.excess) / right.denominator;
+               (right.denominator - right.excess) * right_ends.per_denominator;
   ends.pixels = right.column - left.column;
   return ends;
 }
 
-std::int64_t Solids::depth(std::uint32_t polygon, std::int32_t column) {
+inline std::int64_t Solids::depth(std::uint32_t polygon, std::int32_t column) {
   Polygon& p = polygons_[polygon];
-  if (!p.slope_known) {
-    p.slope_known = true;
-    const Ends z = ends(p, [](const farop_vertex& v) { return static_cast<double>(v.z); });
-    constexpr double one = 1 << k_depth_bits;
-    const double slope = (z.right - z.left) / z.width;
-    p.z = static_cast<std::int64_t>((z.left + slope * z.to_first) * one);
-    p.z += std::int64_t{1} << (k_depth_bits - k_compare_bits - 1);  // so that dropping bits rounds
-    p.z_step = z.pixels > 1 ? static_cast<std::int64_t>(slope * one) : 0;
-  }
+  if (!p.slope_known) find_slope(p);
   return (p.z + p.z_step * (column - p.column)) >> (k_depth_bits - k_compare_bits);
+}
+
+void Solids::find_slope(Polygon& polygon) {
+  const Ends z = ends(polygon, [](const EdgeEnds& edge, double t) { return edge.low_z + edge.z_change * t; });
+  constexpr double one = 1 << k_depth_bits;
+  const double slope = (z.right - z.left) / z.width;
+  polygon.z = static_cast<std::int64_t>((z.left + slope * z.to_first) * one);
+  polygon.z += std::int64_t{1} << (k_depth_bits - k_compare_bits - 1);  // so that dropping bits rounds
+  polygon.z_step = z.pixels > 1 ? static_cast<std::int64_t>(slope * one) : 0;
+  polygon.slope_known = true;
 }
 
 // Of equal depths the first drawn stays. But where a front and a back face of one surface touch, on the
 // outline of a solid, the front face shows, as it does where variant 3 has dropped the other.
-bool Solids::in_front(std::uint32_t a, std::uint32_t b, std::int32_t column) {
-  ++count_.depth_comparisons;
-  const std::int64_t depth_a = depth(a, column), depth_b = depth(b, column);
+bool Solids::in_front(std::uint32_t a, std::int64_t depth_a, std::uint32_t b, std::int64_t depth_b) {
   if (depth_a != depth_b) return depth_a < depth_b;
   const Polygon &p = polygons_[a], &q = polygons_[b];
   if (p.in_surface && p.surface == q.surface && (p.back_facing || q.back_facing)) {
@@ -724,15 +756,14 @@ bool Solids::in_front(std::uint32_t a, std::uint32_t b, std::int32_t column) {
   return a < b;
 }
 
-// The first pixel in column + 1 .. end - 1 at which `a`, which is behind `b` before that, is in front of it;
-// `end` if there is none. Segments are straight, so of two each is in front on one side only, and halving
-// finds the place.
+// `a` is behind `b` at `column` and in front at end - 1: the first pixel where it is in front. Segments are
+// straight, so there is one change only, and halving finds it.
 std::int32_t Solids::comes_through(std::uint32_t a, std::uint32_t b, std::int32_t column, std::int32_t end) {
-  if (end - column < 2 || !in_front(a, b, end - 1)) return end;
   std::int32_t behind = column, before = end - 1;
   while (before - behind > 1) {
+    ++count_.depth_comparisons;
     const std::int32_t middle = behind + (before - behind) / 2;
-    (in_front(a, b, middle) ? before : behind) = middle;
+    (in_front(a, depth(a, middle), b, depth(b, middle)) ? before : behind) = middle;
   }
   return before;
 }
@@ -740,7 +771,10 @@ std::int32_t Solids::comes_through(std::uint32_t a, std::uint32_t b, std::int32_
 std::uint32_t Solids::make_ramp(const Polygon& polygon, std::int32_t column) {
   Ramp ramp;
   const auto set = [&](int channel, std::uint8_t farop_vertex::*component) {
-    const Ends c = ends(polygon, [&](const farop_vertex& v) { return static_cast<double>(v.*component); });
+    const Ends c = ends(polygon, [&](const EdgeEnds& edge, double t) {
+      const double low = corners_[edge.low].*component, high = corners_[edge.high].*component;
+      return low + (high - low) * t;
+    });
     constexpr double one = 1 << k_color_bits;
     const double slope = (c.right - c.left) / c.width;
     const double start = c.left + slope * (c.to_first + (column - polygon.column));

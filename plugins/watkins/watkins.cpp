@@ -48,12 +48,14 @@ struct Edge {
   std::int32_t column = 0, excess = 0, denominator = 1;
   std::int32_t step = 0, excess_step = 0;     ///< a line up, x grows by step + excess_step / denominator
   std::int32_t first_line = 0, end_line = 0;  ///< crosses first_line .. end_line - 1
-  std::uint32_t low = 0, high = 0;            ///< its ends, in the list of all corners
+  double per_denominator = 1;
+  std::uint32_t low = 0, high = 0;  ///< its ends, in the list of all corners
 
   void step_up() {
-    column += step;
     excess -= excess_step;
-    if (excess < 0) excess += denominator, ++column;
+    const std::int32_t carry = excess >> 31;  // -1 below zero, else 0: no branch, it could not be foretold
+    excess += carry & denominator;
+    column += step - carry;
   }
 };
 
@@ -147,8 +149,8 @@ class Watkins {
   const farop_frame* frame_ = nullptr;
   std::vector<farop_vertex> corners_;
   std::vector<Polygon> polygons_;
-  std::vector<Edge> edge_table_;       ///< by first_line once sort_into_buckets() was called
-  std::vector<std::uint32_t> bucket_;  ///< line -> its first edge in edge_table_
+  std::vector<Edge> edge_table_, sorted_;  ///< by first_line once sort_into_buckets() was called
+  std::vector<std::uint32_t> bucket_;      ///< line -> its first edge in edge_table_
   std::vector<Edge> active_, begun_, merged_;
   std::vector<Segment> segments_;               ///< of the current line, by first
   std::vector<std::uint32_t> met_;              ///< heap of those that have begun; top: nearest
@@ -204,6 +206,7 @@ void Watkins::add_edge(std::uint32_t a, std::uint32_t b) {
   const std::int64_t dx = high.x - low.x, dy = high.y - low.y;
   const auto floor_div = [](std::int64_t p, std::int64_t q) { return p / q - (p % q < 0 ? 1 : 0); };
   edge.denominator = static_cast<std::int32_t>(dy << bits);
+  edge.per_denominator = 1.0 / edge.denominator;
   const std::int64_t crossing =  // times denominator
       low.x * dy + ((std::int64_t{edge.first_line} << bits) - low.y) * dx;
   edge.column = static_cast<std::int32_t>(-floor_div(-crossing, edge.denominator));
@@ -218,9 +221,9 @@ void Watkins::sort_into_buckets() {
   for (const Edge& edge : edge_table_) ++bucket_[static_cast<std::size_t>(edge.first_line) + 1];
   for (std::size_t line = 1; line < bucket_.size(); ++line) bucket_[line] += bucket_[line - 1];
   std::vector<std::uint32_t> place(bucket_.begin(), bucket_.end() - 1);
-  merged_.resize(edge_table_.size());
-  for (const Edge& edge : edge_table_) merged_[place[static_cast<std::size_t>(edge.first_line)]++] = edge;
-  edge_table_.swap(merged_);
+  sorted_.resize(edge_table_.size());
+  for (const Edge& edge : edge_table_) sorted_[place[static_cast<std::size_t>(edge.first_line)]++] = edge;
+  edge_table_.swap(sorted_);
 }
 
 // ---- active edges
@@ -249,9 +252,9 @@ void Watkins::next_active_edges(std::int32_t line) {
 // -------------------------------------------------------------------------------------------------------
 
 double Watkins::at_crossing(const Edge& edge, double low, double high, std::int32_t line) const {
-  const std::int32_t y_low = corners_[edge.low].y, y_high = corners_[edge.high].y;
-  const std::int32_t y = line << frame_->subpixel_bits;
-  return low + (high - low) * (static_cast<double>(y - y_low) / (y_high - y_low));
+  const int bits = frame_->subpixel_bits;  // the denominator is the height of the edge << bits
+  const std::int32_t above_low = (line << bits) - corners_[edge.low].y;
+  return low + (high - low) * ((above_low << bits) * edge.per_denominator);
 }
 
 void Watkins::cut_polygons(std::int32_t line) {
@@ -264,8 +267,8 @@ void Watkins::cut_polygons(std::int32_t line) {
     s.polygon = left.polygon;
     s.left = k, s.right = k + 1;
     // Sums of terms that are never negative: however thin the segment, no digits are lost.
-    const double left_rest = static_cast<double>(left.excess) / left.denominator;
-    const double right_rest = static_cast<double>(right.denominator - right.excess) / right.denominator;
+    const double left_rest = left.excess * left.per_denominator;
+    const double right_rest = (right.denominator - right.excess) * right.per_denominator;
     s.distance = left_rest;
     s.per_column = 1 / ((right.column - 1 - left.column) + left_rest + right_rest);
     const auto z = [&](const Edge& edge) {
