@@ -621,20 +621,22 @@ bool Solids::must_be_careful() const {
 // What is visible from this column to the next end point, if all that is there belongs to one solid: nothing
 // new, unless the sweep came over an outline. Faces do not cross, so depths at this pixel hold up to the end.
 void Solids::emit_trusting(std::int32_t column, std::int32_t end) {
+  bool certain = true;
   if (in_.size() == 1) {
     visible_ = in_[0];
-  } else if (visible_ == k_none || polygons_[visible_].back_facing) {
-    if (!nearest_among(in_, column)) return emit_careful(in_, column, end);
+  } else if (visible_ == k_none) {
+    certain = nearest_among(in_, column);
   } else if (!candidates_.empty()) {
     std::erase_if(candidates_, [&](std::uint32_t p) { return !polygons_[p].in || p == visible_; });
     candidates_.push_back(visible_);
-    // But they touch. Where the sweep enters two faces over their edge, and the edge goes through this pixel,
-    // it takes the next one to tell which is in front.
-    if (!nearest_among(candidates_, column)) return emit_careful(candidates_, column, end);
+    certain = nearest_among(candidates_, column);
   }
-  // A back face in sight: rounding to pixels has folded the solid here.
-  if (polygons_[visible_].back_facing) return emit_careful(in_, column, end);
-  emit(column, end);
+  if (certain && !polygons_[visible_].back_facing) return emit(column, end);
+  // Either faces touch here: where they meet in an edge or a corner that lies on this very pixel, it takes
+  // the next one to tell which is in front. Or a back face is in sight: rounding to pixels has folded the
+  // solid. The next span does not rely on this one.
+  emit_careful(in_, column, end);
+  visible_ = k_none;
 }
 
 // The same for any polygons: the span is cut where one comes through another.
