@@ -23,6 +23,7 @@ const std::map<std::string, Rooms> k_may_include = {
     {"parse_nff", {"core", "shading", "scene"}},
     {"spd", {"core", "scene"}},
     {"geometry", {"core", "shading", "scene"}},
+    {"solids", {"core", "scene", "geometry"}},
     {"raster", {"core", "shading"}},
     {"plugin", {"core", "shading"}},
     {"isolate", {"core", "shading", "plugin"}},
@@ -30,7 +31,7 @@ const std::map<std::string, Rooms> k_may_include = {
 };
 
 /// Third-party headers by their first folder -> the only places that may include them.
-const std::map<std::string, Rooms> k_guests = {{"CGAL", {"src/geometry"}},
+const std::map<std::string, Rooms> k_guests = {{"CGAL", {"src/geometry", "src/solids"}},
                                                {"OpenImageIO", {"src/export"}},
                                                {"CLI", {"apps/farop"}},
                                                {"nlohmann", {"apps/farop"}}};
