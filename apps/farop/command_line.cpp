@@ -71,6 +71,7 @@ CommandLine::CommandLine()
   add_compare(*this);
   add_plugins(*this);
   add_doctor(*this);
+  add_table(*this);
   add_completion(*this);
   add_man(*this);
 }

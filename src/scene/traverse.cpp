@@ -55,8 +55,12 @@ class Walk {
 
 }  // namespace
 
+void for_each_surface(const Object& object, const M44d& parent_to_world, const SurfaceVisitor& visit) {
+  Walk(visit).object(object, parent_to_world, 0);
+}
+
 void for_each_surface(const Scene& scene, const SurfaceVisitor& visit) {
-  Walk(visit).object(scene.root, M44d(), 0);
+  for_each_surface(scene.root, M44d(), visit);
 }
 
 SceneTotals totals(const Scene& scene) {

@@ -21,6 +21,8 @@ using SurfaceVisitor = std::function<void(const SurfacePlacement&)>;
 
 /// Calls `visit` for every surface of the tree, top-down in order, an instanced one once per place.
 void for_each_surface(const Scene& scene, const SurfaceVisitor& visit);
+/// The same for one object and its sub-objects; their numbers start with 0 for `object` itself.
+void for_each_surface(const Object& object, const M44d& parent_to_world, const SurfaceVisitor& visit);
 
 /// Totals over the tree; the root is not counted as an object, instances count as often as they are placed.
 struct SceneTotals {

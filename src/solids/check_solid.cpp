@@ -49,7 +49,9 @@ struct Polygons {
 Polygons collect(const Object& object) {
   Polygons all;
   std::unordered_map<V3d, std::uint32_t, PositionHash> numbers;
-  for_each_surface(object, M44d(), [&](const Surface& surface, const M44d& to_parent) {
+  for_each_surface(object, M44d(), [&](const SurfacePlacement& placement) {
+    const Surface& surface = placement.surface;
+    const M44d& to_parent = placement.local_to_world;
     std::vector<std::uint32_t> number(surface.positions.size());
     for (std::size_t i = 0; i < number.size(); ++i) {
       const V3d p = surface.positions[i] * to_parent + V3d(0, 0, 0);  // -0 becomes 0

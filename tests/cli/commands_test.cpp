@@ -23,7 +23,7 @@ Outcome must(const TemporaryFolder& folder, const std::string& command) {
 TEST(Help, OfEveryCommandFitsAScreenAndGroupsItsOptions) {
   const TemporaryFolder folder;
   for (const std::string command :
-       {"", "render", "export", "raster", "convert", "spd", "info", "compare", "plugins", "doctor", "completion"}) {
+       {"", "render", "export", "raster", "convert", "spd", "info", "compare", "plugins", "doctor", "table", "completion"}) {
     const Outcome run = must(folder, "farop " + command + " --help");
     EXPECT_TRUE(run.err.empty());
     EXPECT_LE(std::count(run.out.begin(), run.out.end(), '\n'), 60) << command;
@@ -36,12 +36,12 @@ TEST(Help, OfEveryCommandFitsAScreenAndGroupsItsOptions) {
 
 TEST(Help, ExamplesOfEveryCommandWork) {
   const TemporaryFolder folder;
-  must(folder, "farop spd gears --size 1 -o gears.nff; farop spd teapot --size 2 -o pot.nff");
+  must(folder, "farop spd gears --size 1 -o gears.nff; farop spd teapot --size 2 -o pot.nff; farop spd hollow-cube -o cube.nff");
   must(folder,
        "farop export gears.nff -o gears.scr; farop render gears.nff -o mine.ppm; cp mine.ppm theirs.ppm");
   int examples = 0;
   for (const std::string command :
-       {"render", "export", "raster", "convert", "spd", "info", "compare", "plugins", "doctor", "completion"}) {
+       {"render", "export", "raster", "convert", "spd", "info", "compare", "plugins", "doctor", "table", "completion"}) {
     const std::string help = must(folder, "farop " + command + " --help").out;
     std::istringstream lines(help.substr(help.find("\nExamples\n") + 10));
     for (std::string line; std::getline(lines, line);) {
@@ -50,7 +50,7 @@ TEST(Help, ExamplesOfEveryCommandWork) {
       ++examples;
     }
   }
-  EXPECT_EQ(examples, 20);
+  EXPECT_EQ(examples, 22);
 }
 
 TEST(Manual, ListsEveryCommandAndIsCleanRoff) {

@@ -86,7 +86,8 @@ std::vector<PluginPolygon> screen_polygons(const Scene& scene, const Camera& cam
   // Every polygon of the scene is there, with all its corners: take the ids from it.
   std::size_t next = 0;
   std::uint32_t surface_id = 0;
-  for_each_surface(scene, [&](const Surface& surface, const M44d&) {
+  for_each_surface(scene, [&](const SurfacePlacement& placement) {
+    const Surface& surface = placement.surface;
     ++surface_id;
     for (const PolygonView polygon : surface.polygons) {
       PluginPolygon& on_screen = polygons.at(next++);
