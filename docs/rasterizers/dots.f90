@@ -33,7 +33,7 @@ module dots
   integer(c_int32_t), parameter :: FAROP_OK = 0, FAROP_ABI_VERSION = 65536
 
   type(farop_rasterizer), save, target :: table
-  character(kind=c_char), save, target :: name(9) = ['d', 'o', 't', 's', '_', 'f', '9', '0', c_null_char]
+  character(kind=c_char, len=64), save, target :: name = 'dots_f90' // c_null_char
   type(farop_frame), pointer :: frame => null()  ! no create(): all instances share this state
   integer(c_int8_t), pointer :: bytes(:) => null()
 
@@ -54,27 +54,43 @@ contains
     call c_f_pointer(f, frame)
     ! The last row may end with its last pixel.
     call c_f_pointer(frame%pixels, bytes, [frame%row_bytes * (frame%height - 1) + 3 * frame%width])
+    ! YOUR PART 3, beginning: the depth buffer. Keep one depth for each pixel, and set all of them farther than
+    ! frame%z_far here, because every picture starts empty.
     status = FAROP_OK
   end function
 
-  ! Corners always lie on the frame: no bounds to check. Row 0 is the bottom row.
+  ! Any polygon, concave ones too. Only triangles come if the first 0 of the table below becomes 1.
   function polygon(self, p) result(status) bind(C)
     type(c_ptr), value :: self, p
     integer(c_int32_t) :: status
     type(farop_polygon), pointer :: poly
     type(farop_vertex), pointer :: corner(:)
-    integer(c_int64_t) :: column, row, before
     integer :: i
     call c_f_pointer(p, poly)
     call c_f_pointer(poly%vertices, corner, [poly%vertex_count])
+    ! YOUR PART 1: scan conversion, in place of this loop. Enter the edges into a table by the row of their lower end;
+    ! then, row by row upwards, the edges that cross a row, sorted by column, bound its spans in pairs. A sample on a
+    ! left or bottom edge is inside and one on a right or top edge is not, so that neighbours share no pixel and leave
+    ! none out.
     do i = 1, poly%vertex_count
-      column = shifta(corner(i)%x, frame%subpixel_bits)
-      row = shifta(corner(i)%y, frame%subpixel_bits)
-      before = row * frame%row_bytes + 3 * column
-      bytes(before + 1:before + 3) = corner(i)%rgb
+      ! YOUR PART 2: interpolation. Depth and colour change by the same step from row to row along an edge, and from
+      ! column to column along a span: compute the steps once, then add, and round to whole numbers last.
+      call set_pixel(shifta(corner(i)%x, frame%subpixel_bits), shifta(corner(i)%y, frame%subpixel_bits), corner(i)%z, &
+                     corner(i)%rgb)
     end do
     status = FAROP_OK
   end function
+
+  ! Row 0 is the bottom row. Corners always lie on the frame, and so does all that lies between them.
+  subroutine set_pixel(column, row, depth, rgb)
+    integer(c_int32_t), intent(in) :: column, row, depth
+    integer(c_int8_t), intent(in) :: rgb(3)
+    integer(c_int64_t) :: before
+    ! YOUR PART 3, end: the depth test. Leave the pixel alone unless depth is smaller than what is kept for it; if it
+    ! is, keep it: whatever order the polygons come in, the nearest one is seen.
+    before = row * frame%row_bytes + 3 * column
+    bytes(before + 1:before + 3) = rgb
+  end subroutine
 
   function end_frame(self) result(status) bind(C)
     type(c_ptr), value :: self

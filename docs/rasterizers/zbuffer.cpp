@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The same in C++. Build: c++ -std=c++17 -O2 -fPIC -shared -I plugins/include zbuffer.cpp -o zbuffer_cpp.so
+// A z-buffer for triangles. Build: c++ -std=c++17 -O2 -fPIC -shared -I plugins/include zbuffer.cpp -o zbuffer_cpp.so
 #include <farop/rasterizer.h>
 #include <algorithm>
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The same in Rust, no crates. Build: rustc -O --edition 2021 --crate-type cdylib zbuffer.rs -o zbuffer_rs.so
+// A z-buffer in Rust, no crates. Build: rustc -O --edition 2021 --crate-type cdylib zbuffer.rs -o zbuffer_rs.so
 use std::{mem::{size_of, swap}, os::raw::c_void, panic::{catch_unwind, AssertUnwindSafe}};
 #[repr(C)] #[derive(Clone, Copy)] pub struct Vertex { x: i32, y: i32, z: i32, rgb: [u8; 3], reserved: u8 }
 #[repr(C)] pub struct Polygon { struct_size: u32, vertex_count: u32, vertices: *const [Vertex; 3] } // and more

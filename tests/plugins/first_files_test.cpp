@@ -26,7 +26,7 @@ TEST(FirstFiles, ZBuffersStayBelowFiftyLines) {
     }
     EXPECT_LT(lines, 50) << entry.path();
   }
-  EXPECT_EQ(seen, 4);  // C, C++, Rust, Python
+  EXPECT_EQ(seen, 6);  // C, C++, Rust, Zig, Python, Fortran
 }
 
 TEST(FirstFiles, DotsDrawOnePixelPerCorner) {

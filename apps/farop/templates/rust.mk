@@ -1,0 +1,5 @@
+RUSTFLAGS ?= -O -g
+BUILT = @LIBRARY@
+
+@LIBRARY@: @FILE@ Makefile
+	rustc $(RUSTFLAGS) --edition 2021 --crate-name rasterizer --crate-type cdylib @FILE@ -o $@
