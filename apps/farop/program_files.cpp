@@ -25,6 +25,13 @@ fs::path library_file(const std::string& name) {
   return (program_folder() / k_bin_to_lib / "farop" / name).lexically_normal();
 }
 
+fs::path data_file(const std::string& name) {
+  std::error_code ec;
+  fs::path in_build_folder = program_folder() / "share" / "farop" / name;
+  if (fs::exists(in_build_folder, ec)) return in_build_folder;
+  return (program_folder() / k_bin_to_data / "farop" / name).lexically_normal();
+}
+
 fs::path include_folder() {
   std::error_code ec;
   fs::path in_build_folder = program_folder() / "include";

@@ -11,6 +11,9 @@ namespace farop::app {
 /// build folder. The first of these that exists; the installed place when none does.
 std::filesystem::path library_file(const std::string& name);
 
+/// A file or folder of the data folder: <prefix>/share/farop/NAME, or share/farop/NAME of the build folder.
+std::filesystem::path data_file(const std::string& name);
+
 /// The folder to give to a compiler, so that it finds farop/rasterizer.h: of the installation, or of the
 /// source tree when the program runs from its build folder.
 std::filesystem::path include_folder();

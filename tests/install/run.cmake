@@ -10,7 +10,8 @@ endfunction()
 file(REMOVE_RECURSE ${WORK})
 must(${CMAKE_COMMAND} --install ${FAROP_BUILD} --prefix ${WORK}/prefix)
 foreach(file bin/farop share/man/man1/farop.1 share/bash-completion/completions/farop share/zsh/site-functions/_farop
-             share/fish/vendor_completions.d/farop.fish share/farop/scenes/hollow-cube.nff include/farop/rasterizer.h)
+             share/fish/vendor_completions.d/farop.fish share/farop/scenes/hollow-cube.nff include/farop/rasterizer.h
+             share/farop/templates/Makefile share/farop/rasterizers/dots.c)
   if(NOT EXISTS ${WORK}/prefix/${file})
     message(FATAL_ERROR "not installed: ${file}")
   endif()
@@ -25,3 +26,6 @@ endif()
 # PNG: the picture library is found in the installation.
 must(${WORK}/prefix/bin/farop render ${WORK}/prefix/share/farop/scenes/hollow-cube.nff -o ${WORK}/cube.png)
 must(${WORK}/prefix/bin/farop info ${WORK}/prefix/share/farop/scenes/solid-torus.nff)
+# A rasterizer of one's own: its templates and the header are found in the installation.
+must(${WORK}/prefix/bin/farop new ${WORK}/mine --lang c)
+must(make -C ${WORK}/mine FAROP=${WORK}/prefix/bin/farop picture)

@@ -43,7 +43,7 @@ echo
 echo "In check/, *.expected.png is right, *.mine.png is yours, and *.difference.png is black where they agree."
 if grep -q 'YOUR PART' "$source"; then
   echo "What to do: fill in what is still marked in $source (delete each mark when its part is done):"
-  grep -n -o 'YOUR PART [^.]*' "$source" | sed 's/^/  line /'
+  grep -n -o 'YOUR PART [^.]*' "$source" | sort -t: -k2 | sed 's/^/  line /; s/:/: /'
 else
   echo "What to do: lines along edges come from the fill rule, patches from the depth test, shades from interpolation."
 fi
