@@ -230,14 +230,18 @@ void Watkins::sort_into_buckets() {
 // ---------------------------------------------------------------------------------------------------
 
 void Watkins::next_active_edges(std::int32_t line) {
-  std::erase_if(active_, [&](const Edge& edge) { return edge.end_line <= line; });
+  std::size_t kept = 0;
   for (std::size_t k = 0; k < active_.size(); ++k) {
-    active_[k].step_up();
+    if (active_[k].end_line <= line) continue;
+    Edge edge = active_[k];
+    edge.step_up();
     // Only the edges of a polygon that crosses itself ever change their order.
-    for (std::size_t i = k; i > 0 && before(active_[i], active_[i - 1]); --i) {
-      std::swap(active_[i], active_[i - 1]);
-    }
+    std::size_t place = kept++;
+    for (; place > 0 && before(edge, active_[place - 1]); --place) active_[place] = active_[place - 1];
+    active_[place] = edge;
   }
+  active_.resize(kept);
+
   const std::uint32_t first = bucket_[static_cast<std::size_t>(line)];
   const std::uint32_t end = bucket_[static_cast<std::size_t>(line) + 1];
   if (first == end) return;
