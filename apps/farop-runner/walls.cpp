@@ -321,6 +321,8 @@ constexpr std::array k_watched = {Watched{SCMP_SYS(fork), Deed::process, false},
                                   Watched{SCMP_SYS(lchown), Deed::write_file, false},
                                   Watched{SCMP_SYS(fchown), Deed::write_file, false},
                                   Watched{SCMP_SYS(fchownat), Deed::write_file, false},
+                                  Watched{SCMP_SYS(kill), Deed::signal, false},
+                                  Watched{SCMP_SYS(tkill), Deed::signal, false},
                                   Watched{SCMP_SYS(rt_sigqueueinfo), Deed::signal, false},
                                   Watched{SCMP_SYS(rt_tgsigqueueinfo), Deed::signal, false},
                                   Watched{SCMP_SYS(pidfd_open), Deed::signal, false},
@@ -545,15 +547,11 @@ int filter_calls(std::uint32_t threads, bool watched, int& listener) {
   };
   open_rules(SCMP_SYS(open), 1);
   open_rules(SCMP_SYS(openat), 2);
-  // To itself whatever it likes but SIGKILL: who ended the runner that way must remain clear.
-  const auto signal_rules = [&](int call, unsigned signal) {
-    filter.add(SCMP_ACT_ALLOW, call, {compare(0, SCMP_CMP_EQ, self), compare(signal, SCMP_CMP_NE, SIGKILL)});
-    filter.add(word, call, {compare(0, SCMP_CMP_EQ, self), compare(signal, SCMP_CMP_EQ, SIGKILL)});
-    filter.add(word, call, {compare(0, SCMP_CMP_NE, self)});
-  };
-  signal_rules(SCMP_SYS(kill), 1);
-  signal_rules(SCMP_SYS(tkill), 1);
-  signal_rules(SCMP_SYS(tgkill), 2);
+  // raise() and abort() use tgkill. Not SIGKILL: who ended the runner that way must remain clear.
+  const int raise_call = SCMP_SYS(tgkill);
+  filter.add(SCMP_ACT_ALLOW, raise_call, {compare(0, SCMP_CMP_EQ, self), compare(2, SCMP_CMP_NE, SIGKILL)});
+  filter.add(word, raise_call, {compare(0, SCMP_CMP_EQ, self), compare(2, SCMP_CMP_EQ, SIGKILL)});
+  filter.add(word, raise_call, {compare(0, SCMP_CMP_NE, self)});
   // Looking up limits is harmless, setting them is not.
   filter.add(SCMP_ACT_ALLOW, SCMP_SYS(prlimit64), {compare(2, SCMP_CMP_EQ, 0)});
   filter.add(no, SCMP_SYS(prlimit64), {compare(2, SCMP_CMP_NE, 0)});
@@ -566,12 +564,12 @@ int filter_calls(std::uint32_t threads, bool watched, int& listener) {
                            : SCMP_ACT_ERRNO(EAGAIN),
              SCMP_SYS(clone), {masked(0, CLONE_THREAD, CLONE_THREAD)});
   // Code: the loader maps it now; whether it is still now only the warden knows. Shared anonymous memory
-  // escapes RLIMIT_DATA.
+  // escapes RLIMIT_DATA: the warden counts it.
   const std::uint32_t code = watched ? SCMP_ACT_NOTIFY : SCMP_ACT_ALLOW;
   filter.add(SCMP_ACT_ALLOW, SCMP_SYS(mmap), {masked(2, PROT_EXEC, 0), masked(3, MAP_ANONYMOUS, 0)});
   filter.add(SCMP_ACT_ALLOW, SCMP_SYS(mmap),
              {masked(2, PROT_EXEC, 0), masked(3, MAP_ANONYMOUS | MAP_TYPE, MAP_ANONYMOUS | MAP_PRIVATE)});
-  filter.add(SCMP_ACT_ERRNO(ENOMEM), SCMP_SYS(mmap),
+  filter.add(watched ? SCMP_ACT_NOTIFY : SCMP_ACT_ERRNO(ENOMEM), SCMP_SYS(mmap),
              {masked(2, PROT_EXEC, 0), masked(3, MAP_ANONYMOUS | MAP_TYPE, MAP_ANONYMOUS | MAP_SHARED)});
   filter.add(code, SCMP_SYS(mmap), {masked(2, PROT_EXEC, PROT_EXEC)});
   for (const int call : {SCMP_SYS(mprotect), SCMP_SYS(pkey_mprotect)}) {
@@ -610,8 +608,6 @@ Refusal refusal_of(int call) {
     case SCMP_SYS(open):
     case SCMP_SYS(openat):
       return {Deed::write_file, false};
-    case SCMP_SYS(kill):
-    case SCMP_SYS(tkill):
     case SCMP_SYS(tgkill):
       return {Deed::signal, false};
     case SCMP_SYS(write):

@@ -48,7 +48,8 @@ void describe_address(PluginFinding& finding, const Circumstances& c, const std:
       if (c.frame == nullptr) break;
       const std::string place = place_of(box.offset, *c.frame);
       const std::string verdict = write_verdict(box.offset, *c.frame);
-      finding.verdict = reads || verdict.empty() ? "oob.read" : verdict;
+      // Who reads a pixel is about to write it: blending, x ^= y. The place makes the verdict.
+      finding.verdict = verdict.empty() ? "oob.write-after" : verdict;
       finding.message =
           fmt::format("{} pixels outside the frame {}: {}", reads ? "it read" : "it wrote to", where, place);
       finding.hint = "check coordinates against 0, width and height, and step by row_bytes from row to row";
@@ -60,7 +61,7 @@ void describe_address(PluginFinding& finding, const Circumstances& c, const std:
       finding.hint = "do not unmap or protect memory that is not yours";
       return;
     case Region::old_frame:
-      finding.verdict = reads ? "oob.read" : "oob.write-after-end";
+      finding.verdict = "oob.write-after-end";
       finding.message = fmt::format("{} a frame whose end_frame() had returned, {}", did(box), where);
       finding.hint = "take `pixels` from the frame of the last begin_frame()";
       return;

@@ -84,8 +84,10 @@ PluginFinding load_finding(LoadFailure failure, std::string message, std::string
       finding.verdict = "abi.version";
       break;
     case LoadFailure::contract:
-      finding.verdict = finding.message.starts_with("its name") ? "abi.name" : "abi.symbol";
-      if (finding.message.find("struct_size") != std::string::npos) finding.verdict = "abi.version";
+      // Names, functions that are not there; else a table of another version.
+      finding.verdict = finding.message.starts_with("its name")            ? "abi.name"
+                        : finding.message.starts_with("its table has no ") ? "abi.symbol"
+                                                                           : "abi.version";
       break;
     default:
       finding.verdict = "abi.load";
@@ -207,6 +209,7 @@ class IsolatedRasterizer::Judge {
 
   void polygons(const ScreenPolygonBatch& batch) {
     need_frame();
+    if (options_.guard_every_polygon) return polygons_one_by_one(batch);
     chunk_->append(batch);
     if (chunk_->packed_bytes() >= k_batch_bytes) flush();
   }
@@ -352,6 +355,25 @@ class IsolatedRasterizer::Judge {
 
   void need_frame() const {
     if (!process_ || !has_frame_) throw Error(ExitStatus::internal, "polygons for a frame that is lost");
+  }
+
+  void polygons_one_by_one(const ScreenPolygonBatch& batch) {
+    const auto part = [](const auto& from, const ScreenPolygonRecord& polygon, auto& to) {
+      if (from.empty()) return;
+      const auto first = from.begin() + polygon.first_vertex;
+      to.assign(first, first + polygon.vertex_count);
+    };
+    for (const ScreenPolygonRecord& polygon : batch.polygons) {
+      ScreenPolygonBatch one;
+      one.polygons.push_back(polygon);
+      one.polygons.front().first_vertex = 0;
+      part(batch.vertices, polygon, one.vertices);
+      part(batch.normals, polygon, one.normals);
+      part(batch.eye_positions, polygon, one.eye_positions);
+      part(batch.vertex_ids, polygon, one.vertex_ids);
+      chunk_->append(one);
+      flush();
+    }
   }
 
   /// Hands what has been gathered to the runner.

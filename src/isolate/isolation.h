@@ -33,9 +33,12 @@ struct IsolationOptions {
   Isolation isolation = Isolation::automatic;
   RunnerLimits limits;
   std::map<std::string, std::string> plugin_options;  ///< --plugin-option key=value
-  std::uint64_t seed = 1;                             ///< of the random bytes around and between the rows
-  PluginLog log;                                      ///< lines that the rasterizer logs, safe to print
-  std::string without;  ///< layers not to use, by letter ("BC"): for tests of what the others do alone
+  /// No-man's-land behind the vertices of every single polygon, and none of them can be looked at once its
+  /// polygon() has returned. Slow: for checks. Otherwise so for every quarter of a megabyte of polygons.
+  bool guard_every_polygon = false;
+  std::uint64_t seed = 1;  ///< of the random bytes around and between the rows
+  PluginLog log;           ///< lines that the rasterizer logs, safe to print
+  std::string without;     ///< layers not to use, by letter ("BC"): for tests of what the others do alone
 };
 
 /// What a rasterizer did wrong: what ended a run, or spoiled it.

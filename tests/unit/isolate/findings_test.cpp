@@ -83,6 +83,17 @@ TEST(Findings, ATraceNamesTheFunctionsOfTheRasterizer) {
   EXPECT_NE(finding.trace[1].find("polygon("), std::string::npos) << finding.trace[1];
 }
 
+TEST(Findings, OneVertexTooManyIsNoticedWithEveryPolygonOnItsOwn) {
+  IsolationOptions options = options_for_tests();
+  options.guard_every_polygon = true;
+  for (const char* sin : {"read-one-beyond", "old-input-soon"}) {
+    const PluginFinding finding = sin_finding(sin, options);
+    EXPECT_EQ(finding.verdict, "oob.read") << finding.message;
+    EXPECT_EQ(finding.polygon, 2u);
+    EXPECT_EQ(sin_finding(sin).verdict, "pass") << sin << ": nothing to notice";
+  }
+}
+
 TEST(Findings, LoadingIsPartOfIt) {
   const auto verdict = [](const std::string& path, const std::string& sin) {
     IsolationOptions options = options_for_tests();

@@ -20,12 +20,15 @@ namespace {
 using namespace test;
 
 /// Draws the same frames here and there.
-void expect_same(const std::vector<Drawing>& frames, const PluginDrawing& how) {
+void expect_same(const std::vector<Drawing>& frames, const PluginDrawing& how,
+                 bool guard_every_polygon = false) {
   HostServices services({}, {});
   const PluginLibrary library = open_plugin(plugin_path("filler"), services);
   ASSERT_EQ(library.failure, LoadFailure::none) << library.message;
   PluginRasterizer here(library, services, how);
-  IsolatedRasterizer there(plugin_path("filler"), options_for_tests(), how);
+  IsolationOptions options = options_for_tests();
+  options.guard_every_polygon = guard_every_polygon;
+  IsolatedRasterizer there(plugin_path("filler"), options, how);
   for (const Drawing& frame : frames) {
     draw(here, frame);
     draw(there, frame);
@@ -56,6 +59,10 @@ TEST(IsolatedRasterizer, KeepsTheOrderOfPolygonsAcrossChunksAndBatchesOfAnySize)
   expect_same({triangles(5, 4, 40000, 100), triangles(5, 4, 40000, 39999, 0, 9)}, {});
   // One batch that fits into no place of the ring.
   expect_same({triangles(5, 4, 40000, 40000)}, {});
+}
+
+TEST(IsolatedRasterizer, DrawsTheSameWithEveryPolygonOnItsOwn) {
+  expect_same({triangles(40, 30, 100, 7, 4), triangles(40, 30, 100, 100)}, {2, {0, 0, 1}}, true);
 }
 
 TEST(IsolatedRasterizer, HandsOnWhatTheRasterizerSaysOfItself) {

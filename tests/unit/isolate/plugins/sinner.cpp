@@ -92,6 +92,8 @@ farop_status sin_of(const farop_polygon* p) {
   if (sin == "read-beyond") {
     for (int i = 0; i < 100000; ++i) g_sink = g_sink + p->vertices[i].x;
   }
+  if (sin == "read-one-beyond") g_sink = p->vertices[p->vertex_count].x;
+  if (sin == "old-input-soon") g_sink = g_kept->x;
   if (sin == "old-frame") g_first.pixels[0] = 1;
   if (sin == "old-input") g_sink = g_kept->x;
   if (sin == "fork") {
