@@ -88,11 +88,16 @@ bool FrameMemory::prepare(farop_frame& frame) {
                 fmt::format("not enough memory for a frame of {} x {} pixels", frame.width, frame.height),
                 "use a smaller --resolution or fewer --samples");
   }
-  // Frames of another shape may have the same size.
-  fill(sent_);
   offset_ = touches_ == Touches::end ? all - bytes_ : 0;
   frame.pixels = reinterpret_cast<std::uint8_t*>(sent_.data() + offset_);
-  clear_frame(frame);
+  // Nobody else writes to `sent_`: for frames alike it is ready.
+  const Shape shape{
+      frame.width, frame.height, {frame.background[0], frame.background[1], frame.background[2]}};
+  if (is_new || shape != shape_) {
+    fill(sent_);
+    clear_frame(frame);
+    shape_ = shape;
+  }
   memory_.write(0, sent_);
   return is_new;
 }

@@ -2,8 +2,9 @@
 // A frame as the rasterizer gets it, with random bytes wherever it must not write.
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <optional>
+#include <string>
 #include <vector>
 
 #include "isolate/isolation.h"
@@ -37,12 +38,18 @@ class FrameMemory {
   std::vector<PluginFinding> fetch(farop_frame& frame);
 
  private:
+  struct Shape {
+    std::int32_t width = 0, height = 0;
+    std::array<std::uint8_t, 3> background{};
+    friend bool operator==(const Shape&, const Shape&) = default;
+  };
   void fill(std::vector<std::byte>& bytes);
 
   Touches touches_;
   std::uint64_t random_;
   SharedMemory memory_;
   std::uint64_t offset_ = 0, bytes_ = 0;
+  Shape shape_;  ///< of what `sent_` holds
   std::vector<std::byte> sent_, got_;
 };
 
