@@ -376,6 +376,11 @@ constexpr std::array k_watched = {Watched{SCMP_SYS(fork), Deed::process, false},
                                   Watched{SCMP_SYS(ioperm), Deed::kernel, true},
                                   Watched{SCMP_SYS(modify_ldt), Deed::kernel, true}};
 
+/// Older kernels end a thread only.
+std::uint32_t the_end() {
+  return ::seccomp_api_get() >= 3 ? SCMP_ACT_KILL_PROCESS : SCMP_ACT_KILL_THREAD;
+}
+
 /// A filter under construction. The first failure sticks.
 class Filter {
  public:
@@ -385,7 +390,7 @@ class Filter {
       return;
     }
     // 32-bit entries and x32 numbers mean other calls than the ones looked at here.
-    check(::seccomp_attr_set(context_, SCMP_FLTATR_ACT_BADARCH, SCMP_ACT_KILL_PROCESS));
+    check(::seccomp_attr_set(context_, SCMP_FLTATR_ACT_BADARCH, the_end()));
     // A binary tree: some two dozen calls a second are made, but some rasterizers allocate a lot.
     ::seccomp_attr_set(context_, SCMP_FLTATR_CTL_OPTIMIZE, 2);
   }
@@ -521,7 +526,7 @@ int filter_calls(std::uint32_t threads, bool watched, int& listener) {
   const auto nothing = SCMP_ACT_ERRNO(ENOSYS);
   const auto no = SCMP_ACT_ERRNO(EPERM);
   const std::uint32_t word = watched ? SCMP_ACT_NOTIFY : no;
-  const std::uint32_t fatal_word = watched ? SCMP_ACT_NOTIFY : SCMP_ACT_KILL_PROCESS;
+  const std::uint32_t fatal_word = watched ? SCMP_ACT_NOTIFY : the_end();
   const auto self = static_cast<std::uint64_t>(::getpid());
 
   Filter filter(nothing);

@@ -304,6 +304,7 @@ class IsolatedRasterizer::Judge {
                                                 : layer.how_to_enable);
       }
     }
+    process_->start_clocks(options_.limits);  // now that the runner is known
     Request load;
     load.kind = RequestKind::load;
     ask(load);

@@ -6,6 +6,7 @@
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <ctime>
@@ -208,6 +210,13 @@ void RunnerProcess::start_clocks(const RunnerLimits& limits) {
   limits_ = limits;
   cpu_start_ = cpu_seconds();
   waited_ = {};
+  if (runner_pid_ < 0) return;
+  // Should this process be stopped, the kernel ends the runner. A second more than ours: then the words are
+  // ours.
+  rlimit limit{};
+  limit.rlim_cur = static_cast<rlim_t>(std::ceil(cpu_start_ + limits.cpu_seconds)) + 1;
+  limit.rlim_max = RLIM_INFINITY;
+  ::prlimit(runner_pid_, RLIMIT_CPU, &limit, nullptr);
 }
 
 std::optional<TimedOut> RunnerProcess::over_limit() {

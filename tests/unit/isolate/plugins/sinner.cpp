@@ -11,7 +11,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-#include <csetjmp>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -150,6 +150,17 @@ farop_status sin_of(const farop_polygon* p) {
   if (sin == "log") {
     for (int i = 0; i < 10000; ++i)
       g_host->log(g_host, FAROP_LOG_INFO, "a line of words that is not needed by anybody");
+  }
+  if (sin == "call") ::syscall(std::atol(option("number").c_str()), -1L, -1L, -1L, -1L, -1L, -1L);
+  if (sin == "every-call") {
+    const std::string skipped = " " + option("skip") + " ";
+    for (int n = 0; n < 520; ++n) {
+      if (skipped.find(" " + std::to_string(n) + " ") != std::string::npos) continue;
+      errno = 0;
+      const long result = ::syscall(n, -1L, -1L, -1L, -1L, -1L, -1L);
+      std::printf("%d %d\n", n, result == -1 ? errno : 0);
+    }
+    std::fflush(stdout);
   }
   // What a wall should stop, told by the exit status when it did not.
   if (sin == "read-file") {
