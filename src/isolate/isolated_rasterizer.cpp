@@ -40,6 +40,7 @@ namespace {
 /// Polygons go over as soon as there is this much of them.
 constexpr std::size_t k_batch_bytes = std::size_t{256} << 10;
 constexpr std::uint64_t k_page = 4096;
+constexpr std::ptrdiff_t k_max_own_memories = 2;
 constexpr std::int64_t k_least_leak = 128 << 10;                ///< bytes per frame that are worth a word
 constexpr std::size_t k_max_log_bytes = std::size_t{64} << 10;  ///< lines taken per frame
 
@@ -167,7 +168,9 @@ class IsolatedRasterizer::Judge {
 
   void begin_frame(const ScreenFrame& frame) {
     if (!process_) start();
-    forget_outstanding();
+    // Of a frame that was given up half-way, by whoever feeds us.
+    while (!outstanding_.empty()) attend(true);
+    has_picture_ = false;
     const auto begun = std::chrono::steady_clock::now();
     frame_begun_ = begun;
     const std::uint32_t number = frames_begun_++;
@@ -227,11 +230,12 @@ class IsolatedRasterizer::Judge {
     look_at_output();
     look_at_memory();
     has_frame_ = false;
+    has_picture_ = true;
     judge_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - frame_begun_).count();
   }
 
   Framebuffer take() const {
-    if (frame_.pixels == nullptr) {
+    if (!has_picture_ || !draws_here()) {
       throw Error(ExitStatus::internal, "a picture was asked for before there was one");
     }
     return average_blocks(frame_, drawing_.samples, y_down_);
@@ -387,6 +391,7 @@ class IsolatedRasterizer::Judge {
     request.kind = RequestKind::chunk;
     request.bytes = bytes;
     if (bytes > k_slot_bytes) {
+      while (own_memories() >= k_max_own_memories) attend(true);
       SharedMemory memory("farop-polygons", whole_pages(bytes));
       WritableView view(memory);
       request.slot = k_no_slot;
@@ -407,6 +412,13 @@ class IsolatedRasterizer::Judge {
       next_slot_ = (next_slot_ + 1) % k_ring_slots;
     }
     chunk_->clear();
+  }
+
+  /// Chunks on their way that are too large for the ring.
+  std::ptrdiff_t own_memories() const {
+    return std::count_if(outstanding_.begin(), outstanding_.end(), [](const Outstanding& o) {
+      return o.kind == RequestKind::chunk && o.slot == k_no_slot;
+    });
   }
 
   std::span<std::byte> slot_memory(std::uint32_t slot) const {
@@ -681,7 +693,8 @@ class IsolatedRasterizer::Judge {
 
   farop_frame frame_{};
   bool y_down_ = false;
-  bool has_frame_ = false;
+  bool has_frame_ = false;    ///< begun, not ended
+  bool has_picture_ = false;  ///< ended
   std::uint32_t frames_begun_ = 0;
   std::chrono::steady_clock::time_point frame_begun_;
 

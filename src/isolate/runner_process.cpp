@@ -221,6 +221,9 @@ void RunnerProcess::start_clocks(const RunnerLimits& limits) {
 
 std::optional<TimedOut> RunnerProcess::over_limit() {
   if (ended_) return std::nullopt;
+  const auto now = Clock::now();
+  if (now < next_look_) return std::nullopt;
+  next_look_ = now + milliseconds(20);
   if (cpu_seconds() - cpu_start_ > limits_.cpu_seconds) return TimedOut{true, limits_.cpu_seconds};
   if (std::chrono::duration<double>(waited_).count() > limits_.wall_seconds) {
     return TimedOut{false, limits_.wall_seconds};
@@ -231,6 +234,12 @@ std::optional<TimedOut> RunnerProcess::over_limit() {
 std::optional<RunnerEvent> RunnerProcess::next(bool wait) {
   bool looked = false;
   for (;;) {
+    // The clock first: whoever has something to say without end is stopped all the same.
+    if (const auto over = over_limit()) {
+      end();
+      said_end_ = true;
+      return *over;
+    }
     if (next_event_ < events_.size()) {
       RunnerEvent event = std::move(events_[next_event_++]);
       if (next_event_ == events_.size()) events_.clear(), next_event_ = 0;
@@ -244,12 +253,6 @@ std::optional<RunnerEvent> RunnerProcess::next(bool wait) {
     if (said_end_ || (looked && !wait)) return std::nullopt;
     poll_once(milliseconds(wait ? 50 : 0));
     looked = true;
-    if (!events_.empty() || end_) continue;
-    if (const auto over = over_limit()) {
-      end();
-      said_end_ = true;
-      return *over;
-    }
   }
 }
 
@@ -260,14 +263,15 @@ void RunnerProcess::poll_once(milliseconds patience) {
                              {err_pipe_.get(), POLLIN, 0}}};
   const auto begun = Clock::now();
   const int ready = ::poll(all.data(), all.size(), static_cast<int>(patience.count()));
+  if (ready > 0) {
+    // Before the warden's news: what the runner said before it ended comes first.
+    if (all[2].revents != 0) read_output(out_pipe_, out_);
+    if (all[3].revents != 0) read_output(err_pipe_, err_);
+    if (all[0].revents != 0) read_control();
+    if (all[1].revents != 0) read_warden();
+  }
   // A process that was stopped and went on later (or a machine that slept) waited for nobody.
   if (patience.count() > 0) waited_ += std::min<Clock::duration>(Clock::now() - begun, 10 * patience);
-  if (ready <= 0) return;
-  // Before the warden's news: what the runner said before it ended comes first.
-  if (all[2].revents != 0) read_output(out_pipe_, out_);
-  if (all[3].revents != 0) read_output(err_pipe_, err_);
-  if (all[0].revents != 0) read_control();
-  if (all[1].revents != 0) read_warden();
 }
 
 void RunnerProcess::read_control() {

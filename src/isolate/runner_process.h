@@ -108,6 +108,7 @@ class RunnerProcess {
   RunnerLimits limits_;
   double cpu_start_ = 0;
   Clock::duration waited_{};
+  Clock::time_point next_look_;  ///< at the clocks
 };
 
 }  // namespace farop::isolate

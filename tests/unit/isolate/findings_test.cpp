@@ -30,6 +30,7 @@ TEST_P(Sins, AreNamed) {
   IsolationOptions options = options_for_tests();
   const std::string name = sin.name;
   if (name == "loop") options.limits.cpu_seconds = 0.3;
+  if (name.ends_with("-forever")) options.limits.cpu_seconds = 0.3, options.limits.wall_seconds = 1;
   if (name == "pause" || name == "stop" || name == "hang-at-end-frame") options.limits.wall_seconds = 0.5;
   const PluginFinding finding = sin_finding(name, options, sin.sinful_frame, sin.frames);
   EXPECT_EQ(finding.verdict, sin.verdict) << finding.message;
@@ -70,6 +71,7 @@ INSTANTIATE_TEST_SUITE_P(
         Sin{"kill-parent", "limit.syscall", "signal"}, Sin{"kill-self", "limit.syscall", "signal"},
         Sin{"memory", "limit.memory", "out of memory (limit 256 MB)"},
         Sin{"print", "limit.output", "64 KiB", false}, Sin{"log", "limit.output", "64 KiB", false},
+        Sin{"log-forever", "limit.time", "in polygon 2"}, Sin{"print-forever", "limit.time", "in polygon 2"},
         Sin{"close", "abi.protocol", "descriptors", false}, Sin{"forge", "abi.protocol", "", false},
         Sin{"write-control", "abi.protocol", "(write)"}, Sin{"unmap", "crash.segv", "frame"},
         Sin{"float", "abi.float-state", "denormal", false}, Sin{"handler", "abi.signals", "signal", false},

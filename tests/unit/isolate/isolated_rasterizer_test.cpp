@@ -186,6 +186,18 @@ TEST(IsolatedRasterizer, OneThatMisbehavesDoesNotDisturbItsNeighbour) {
   }
 }
 
+TEST(IsolatedRasterizer, AFrameMayBeGivenUpHalfWay) {
+  IsolatedRasterizer rasterizer(plugin_path("filler"), options_for_tests(), {});
+  const Drawing drawing = triangles(5, 4, 40000, 10000);
+  draw(rasterizer, drawing);
+  const std::vector<std::uint8_t> right = rasterizer.take().rgb;
+  rasterizer.begin_frame(drawing.frame);
+  for (int i = 0; i < 3; ++i) rasterizer.polygons(drawing.batches[0]);
+  EXPECT_THROW(rasterizer.take(), Error);
+  draw(rasterizer, drawing);
+  EXPECT_TRUE(rasterizer.take().rgb == right);
+}
+
 TEST(IsolatedRasterizer, BlamesTheSurroundingsForARunnerThatIsNotThere) {
   IsolationOptions options = options_for_tests();
   options.runner = "/nowhere/farop-runner";

@@ -147,6 +147,12 @@ farop_status sin_of(const farop_polygon* p) {
     sigfillset(&all);
     ::sigprocmask(SIG_BLOCK, &all, nullptr);
   }
+  if (sin == "log-forever") {
+    for (;;) g_host->log(g_host, FAROP_LOG_INFO, "again");
+  }
+  if (sin == "print-forever") {
+    for (;;) std::puts("again");
+  }
   if (sin == "log") {
     for (int i = 0; i < 10000; ++i)
       g_host->log(g_host, FAROP_LOG_INFO, "a line of words that is not needed by anybody");
