@@ -28,9 +28,16 @@ namespace farop::isolate {
 namespace {
 
 /// Where the loader looks on the systems we know. What is missing is left out.
-constexpr std::array k_library_folders = {"/lib",           "/lib64",           "/lib32",
-                                          "/usr/lib",       "/usr/lib64",       "/usr/lib32",
-                                          "/usr/local/lib", "/usr/local/lib64", "/usr/libexec/gcc"};
+constexpr std::array k_library_folders = {"/lib",
+                                          "/lib64",
+                                          "/lib32",
+                                          "/usr/lib",
+                                          "/usr/lib64",
+                                          "/usr/lib32",
+                                          "/usr/local/lib",
+                                          "/usr/local/lib64",
+                                          "/usr/libexec/gcc",
+                                          "/etc/alternatives"};  // links to libraries, in Debian
 constexpr const char* k_loader_cache = "/etc/ld.so.cache";
 
 int result(int value) {
@@ -241,37 +248,17 @@ constexpr std::array k_loading = {
     SCMP_SYS(seccomp), SCMP_SYS(stat),       SCMP_SYS(statfs),     SCMP_SYS(fstatfs),  SCMP_SYS(statx)};
 
 /// Legal questions with a "no" for an answer, not worth a word: libraries ask them in passing.
-constexpr std::array k_quietly_refused = {SCMP_SYS(arch_prctl),
-                                          SCMP_SYS(capset),
-                                          SCMP_SYS(chdir),
-                                          SCMP_SYS(fallocate),
-                                          SCMP_SYS(fchdir),
-                                          SCMP_SYS(fcntl),
-                                          SCMP_SYS(flock),
-                                          SCMP_SYS(ftruncate),
-                                          SCMP_SYS(getpeername),
-                                          SCMP_SYS(getsockname),
-                                          SCMP_SYS(getsockopt),
-                                          SCMP_SYS(ioctl),
-                                          SCMP_SYS(mlock),
-                                          SCMP_SYS(mlockall),
-                                          SCMP_SYS(personality),
-                                          SCMP_SYS(sched_setaffinity),
-                                          SCMP_SYS(sched_setattr),
-                                          SCMP_SYS(sched_setparam),
-                                          SCMP_SYS(sched_setscheduler),
-                                          SCMP_SYS(setpgid),
-                                          SCMP_SYS(setpriority),
-                                          SCMP_SYS(setrlimit),
-                                          SCMP_SYS(setsid),
-                                          SCMP_SYS(setsockopt),
-                                          SCMP_SYS(setuid),
-                                          SCMP_SYS(setgid),
-                                          SCMP_SYS(setresuid),
-                                          SCMP_SYS(setresgid),
-                                          SCMP_SYS(setgroups),
-                                          SCMP_SYS(shutdown),
-                                          SCMP_SYS(umask)};
+constexpr std::array k_quietly_refused = {
+    SCMP_SYS(arch_prctl),    SCMP_SYS(capset),         SCMP_SYS(chdir),
+    SCMP_SYS(fallocate),     SCMP_SYS(fchdir),         SCMP_SYS(flock),
+    SCMP_SYS(ftruncate),     SCMP_SYS(getpeername),    SCMP_SYS(getsockname),
+    SCMP_SYS(getsockopt),    SCMP_SYS(ioctl),          SCMP_SYS(mlock),
+    SCMP_SYS(mlockall),      SCMP_SYS(personality),    SCMP_SYS(sched_setaffinity),
+    SCMP_SYS(sched_setattr), SCMP_SYS(sched_setparam), SCMP_SYS(sched_setscheduler),
+    SCMP_SYS(setpgid),       SCMP_SYS(setpriority),    SCMP_SYS(setrlimit),
+    SCMP_SYS(setsid),        SCMP_SYS(setsockopt),     SCMP_SYS(setuid),
+    SCMP_SYS(setgid),        SCMP_SYS(setresuid),      SCMP_SYS(setresgid),
+    SCMP_SYS(setgroups),     SCMP_SYS(shutdown),       SCMP_SYS(umask)};
 
 struct Watched {
   int call;
@@ -557,6 +544,15 @@ int filter_calls(std::uint32_t threads, bool watched, int& listener) {
   filter.add(SCMP_ACT_ALLOW, raise_call, {compare(0, SCMP_CMP_EQ, self), compare(2, SCMP_CMP_NE, SIGKILL)});
   filter.add(word, raise_call, {compare(0, SCMP_CMP_EQ, self), compare(2, SCMP_CMP_EQ, SIGKILL)});
   filter.add(word, raise_call, {compare(0, SCMP_CMP_NE, self)});
+  // Asking a descriptor what it is, as interpreters do with every file they open.
+  for (const int command : {F_GETFD, F_GETFL}) {
+    filter.add(SCMP_ACT_ALLOW, SCMP_SYS(fcntl),
+               {compare(1, SCMP_CMP_EQ, static_cast<std::uint64_t>(command))});
+  }
+  for (const int command : {F_DUPFD, F_SETFD}) {
+    filter.add(no, SCMP_SYS(fcntl), {compare(1, SCMP_CMP_EQ, static_cast<std::uint64_t>(command))});
+  }
+  filter.add(no, SCMP_SYS(fcntl), {compare(1, SCMP_CMP_GT, F_GETFL)});
   // Looking up limits is harmless, setting them is not.
   filter.add(SCMP_ACT_ALLOW, SCMP_SYS(prlimit64), {compare(2, SCMP_CMP_EQ, 0)});
   filter.add(no, SCMP_SYS(prlimit64), {compare(2, SCMP_CMP_NE, 0)});

@@ -117,7 +117,11 @@ class IsolatedDrawer : public Drawer {
       if (level >= FAROP_LOG_ERROR) error_ = line;
       log(level, line);
     };
-    rasterizer_ = std::make_unique<IsolatedRasterizer>(what.library, isolation, drawing);
+    try {
+      rasterizer_ = std::make_unique<IsolatedRasterizer>(what.library, isolation, drawing);
+    } catch (const PluginFailure& failure) {
+      throw PluginFailure(printable(file, 4096), failure.finding());  // the script's name, not its adapter's
+    }
   }
   ScreenPolygonSink& sink() override { return *rasterizer_; }
   std::string name() const override { return rasterizer_->description().name; }

@@ -8,7 +8,8 @@
 namespace farop::app {
 namespace {
 
-constexpr std::size_t k_signature_width = 32;
+constexpr std::size_t k_signature_width = 36;
+constexpr std::size_t k_line_width = 105;
 
 bool hidden(const CLI::App& command) {
   return command.get_group().empty();
@@ -16,7 +17,11 @@ bool hidden(const CLI::App& command) {
 
 std::string examples_text(const std::vector<Example>& examples) {
   std::string out = "\nExamples\n";
-  for (const Example& e : examples) out += fmt::format("  {}\n      {}\n", e.line, e.meaning);
+  for (const Example& e : examples) {
+    const bool fits = e.line.size() + e.meaning.size() + 7 <= k_line_width;  // as a comment of the shell
+    out += fits ? fmt::format("  {}   # {}\n", e.line, e.meaning)
+                : fmt::format("  {}\n      {}\n", e.line, e.meaning);
+  }
   return out;
 }
 

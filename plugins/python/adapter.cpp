@@ -52,6 +52,15 @@ PyObject* adapter(const char* name) {
   return PyDict_GetItemString(g_adapter, name);  // borrowed
 }
 
+/// The last line of a text that is not empty.
+std::string last_line(const std::string& text) {
+  const std::size_t last = text.find_last_not_of(" \t\r\n");
+  if (last == std::string::npos) return {};
+  const std::size_t before = text.find_last_of('\n', last);
+  const std::size_t first = before == std::string::npos ? 0 : before + 1;
+  return text.substr(first, last + 1 - first);
+}
+
 /// Logs the pending exception; the status it means.
 farop_status failure() {
   PyObject *type = nullptr, *value = nullptr, *trace = nullptr;
@@ -65,7 +74,9 @@ farop_status failure() {
     if (!done) PyErr_Clear();
   } else {
     const Owned text(value == nullptr ? nullptr : PyObject_Str(value));
-    const char* words = text ? PyUnicode_AsUTF8(text.get()) : nullptr;
+    const char* const whole = text ? PyUnicode_AsUTF8(text.get()) : nullptr;
+    const std::string line = whole == nullptr ? std::string() : last_line(whole);
+    const char* const words = line.empty() ? nullptr : line.c_str();
     g_current->host->log(g_current->host, FAROP_LOG_ERROR,
                          words == nullptr ? "python: unknown failure" : words);
     PyErr_Clear();

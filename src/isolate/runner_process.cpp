@@ -103,10 +103,12 @@ pid_t spawn(const std::string& program, Placement& placement, std::uint32_t thre
   ::posix_spawnattr_setflags(&attributes,
                              POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSID);
   std::array<std::string, 1> arguments = {"farop-runner"};
-  std::array<std::string, 3> variables = {"LANG=C", "PATH=/usr/bin:/bin",
+  std::array<std::string, 5> variables = {"LANG=C", "PATH=/usr/bin:/bin", "HOME=/",
+                                          fmt::format("OPENBLAS_NUM_THREADS={}", threads),
                                           fmt::format("OMP_NUM_THREADS={}", threads)};
   std::array<char*, 2> argv = {arguments[0].data(), nullptr};
-  std::array<char*, 4> environment = {variables[0].data(), variables[1].data(), variables[2].data(), nullptr};
+  std::array<char*, 6> environment = {variables[0].data(), variables[1].data(), variables[2].data(),
+                                      variables[3].data(), variables[4].data(), nullptr};
   pid_t pid = -1;
   const int error =
       ::posix_spawn(&pid, program.c_str(), placement.finish(), &attributes, argv.data(), environment.data());
