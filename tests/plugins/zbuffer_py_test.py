@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/rasterizers/zbuffer.py against the definitions, in exact fractions. The argument is its folder."""
+"""docs/rasterizers/zbuffer.py and dots.py against the definitions, in exact fractions. The argument is their folder."""
 import random
 import sys
 import types
@@ -13,6 +13,7 @@ except ImportError:
     sys.exit(77)  # ctest: skipped
 
 sys.path.insert(0, sys.argv.pop(1) if len(sys.argv) > 1 else "docs/rasterizers")
+import dots
 from zbuffer import Rasterizer
 
 VERTEX = np.dtype([("x", "<i4"), ("y", "<i4"), ("z", "<i4"), ("r", "u1"), ("g", "u1"), ("b", "u1"), ("reserved", "u1")])
@@ -100,6 +101,20 @@ class ZBuffer(unittest.TestCase):
         for scene in (planes[0] + planes[1], planes[1] + planes[0]):
             pixels = draw(self.rasterizer, 64, 64, scene)
             self.assertTrue((pixels[8:56, 8:32, 0] == 50).all() and (pixels[8:56, 32:56, 0] == 90).all())
+
+
+class Dots(unittest.TestCase):
+    def test_draws_one_pixel_a_corner(self):
+        for bits in 0, 3:
+            rasterizer = dots.Rasterizer()
+            rasterizer.create(None)
+            corners = [(0, 0, 0, 1, 2, 3), (20 << bits, 8 << bits, 9, 255, 128, 127), (5 << bits, 4 << bits, 7, 200, 0, 1)]
+            pixels = draw(rasterizer, 21, 9, [triangle(*corners)], bits, background=77)
+            expected = np.full((9, 21, 3), 77)
+            for x, y, _, *rgb in corners:
+                expected[y >> bits, x >> bits] = rgb
+            self.assertTrue((pixels == expected).all())
+            rasterizer.destroy()
 
 
 if __name__ == "__main__":

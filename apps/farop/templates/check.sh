@@ -15,14 +15,14 @@ check_scene() {
   rm -f "$file".*
   $farop spd "$@" -o "$file.nff" -q &&
     $farop export "$file.nff" -o "$file.scr" --resolution 200x150 $triangles -q &&
-    $farop raster "$file.scr" -o "$file.expected.png" --background $background -q || exit 4
-  if ! $farop raster "$file.scr" -o "$file.mine.png" --background $background --rasterizer "$rasterizer" -q; then
+    $farop raster "$file.scr" -o "$file.expected.ppm" --background $background -q || exit 4
+  if ! $farop raster "$file.scr" -o "$file.mine.ppm" --background $background --rasterizer "$rasterizer" -q; then
     echo "FAIL  $1: it was not drawn"
     failed=1
     return
   fi
   # 0.005 lies between one step of 8 bits, which rounding may cost, and two.
-  $farop compare "$file.mine.png" "$file.expected.png" --fail 0.005 -o "$file.difference.png" -q > "$file.txt"
+  $farop compare "$file.mine.ppm" "$file.expected.ppm" --fail 0.005 -o "$file.difference.png" -q > "$file.txt"
   case $? in
   0) echo "pass  $1" ;;
   1)
@@ -40,7 +40,7 @@ check_scene gears --size 1
 [ $failed = 0 ] && exit 0
 
 echo
-echo "In check/, *.expected.png is right, *.mine.png is yours, and *.difference.png is black where they agree."
+echo "In check/, *.expected.ppm is right, *.mine.ppm is yours, and *.difference.png is black where they agree."
 if grep -q 'YOUR PART' "$source"; then
   echo "What to do: fill in what is still marked in $source (delete each mark when its part is done):"
   grep -n -o 'YOUR PART [^.]*' "$source" | sort -t: -k2 | sed 's/^/  line /; s/:/: /'
