@@ -100,7 +100,7 @@ bool before(const Edge& a, const Edge& b) {
 }
 
 /// Depths are compared in units of 1/256: fine enough to decide what whole numbers leave open, and coarse
-/// enough that the last bits of the arithmetic do not. Of equals the first drawn is in front.
+/// enough that the last bits of the arithmetic do not. Which of equals is in front: see Solids::in_front().
 constexpr int k_depth_bits = 28;  ///< fraction of Polygon::z and z_step: 2^30 depths fit, and their slopes
 constexpr int k_compare_bits = 8;
 constexpr int k_color_bits = 22;  ///< fraction of colours: 255 fits 32 bits, 32767 steps lose 1/100
@@ -109,7 +109,7 @@ struct Polygon {
   std::uint32_t first_corner = 0, corner_count = 0;
   std::uint32_t surface = 0;
   bool back_facing = false, one_color = false;
-  bool in_surface = false;
+  bool in_surface = false;  ///< a flat file has no surfaces
   // Of the current line:
   bool in = false;                 ///< the sweep is inside
   bool slope_known = false;        ///< z, z_step
@@ -243,7 +243,7 @@ class Solids {
   std::int32_t line_ = 0;
   std::vector<Edge> active_;
   std::vector<std::uint32_t> in_;          ///< polygons whose flag is set
-  std::vector<std::uint32_t> candidates_;  ///< opened at this column: may be in front of what was visible
+  std::vector<std::uint32_t> candidates_;  ///< entered at this column: may be in front of what was visible
   std::uint32_t visible_ = k_none;
   std::uint32_t column_number_ = 0;  ///< counts the columns of the frame at which edges cross
   std::uint32_t solids_in_ = 0, others_in_ = 0;
@@ -258,8 +258,7 @@ class Solids {
   std::uint32_t last_left_ = k_none;  ///< crossing at which the polygon of the last span was entered
 };
 
-// ---- storing
-// --------------------------------------------------------------------------------------------------------
+// ---- storing ------------------------------------------------------------------------------------
 
 void Solids::begin(const farop_frame& frame) {
   frame_ = &frame;
@@ -287,7 +286,7 @@ void Solids::store(const farop_polygon& polygon) {
   }
   corners_.insert(corners_.end(), v, v + polygon.vertex_count);
   stored.surface = number_of_surface(polygon.object_id, polygon.surface_id);
-  stored.in_surface = polygon.surface_id != 0;  // a flat file has none
+  stored.in_surface = polygon.surface_id != 0;
   if (variant_ >= 2) {
     if (polygon.vertex_ids != nullptr) {
       ids_.insert(ids_.end(), polygon.vertex_ids, polygon.vertex_ids + polygon.vertex_count);
@@ -308,8 +307,7 @@ std::uint32_t Solids::number_of_surface(std::uint32_t object_id, std::uint32_t s
   return last_surface_number_;
 }
 
-// ---- building the tables
-// --------------------------------------------------------------------------------------------
+// ---- building the tables ------------------------------------------------------------------------
 
 // A surface is closed and turns the same way everywhere if every edge is walked once in each direction. To
 // see that, edges need not be found again: give each a random number, add it where the edge is walked from
@@ -482,8 +480,7 @@ void Solids::sort_into_buckets() {
   }
 }
 
-// ---- active edges
-// ---------------------------------------------------------------------------------------------------
+// ---- active edges -------------------------------------------------------------------------------
 
 void Solids::next_active_edges() {
   // Drop, step, and put back in order those that have crossed others: few, unless the picture is a heap of
@@ -515,8 +512,7 @@ void Solids::next_active_edges() {
   count_.active_edges_max = std::max<std::uint64_t>(count_.active_edges_max, active_.size());
 }
 
-// ---- from left to right through a line
-// ------------------------------------------------------------------------------
+// ---- from left to right through a line ----------------------------------------------------------
 
 void Solids::sweep() {
   paired_ = false;
@@ -684,8 +680,7 @@ void Solids::emit(std::int32_t column, std::int32_t end) {
   spans_.push_back({column, end, visible_, polygon.one_color ? k_none : make_ramp(polygon, column)});
 }
 
-// ---- depths and colours on a line
-// ---------------------------------------------------------------------------------------
+// ---- depths and colours on a line ---------------------------------------------------------------
 
 // Where every polygon that is entered on this line is left. Only for lines on which somebody asks.
 void Solids::pair_crossings() {
@@ -789,8 +784,7 @@ std::uint32_t Solids::make_ramp(const Polygon& polygon, std::int32_t column) {
   return static_cast<std::uint32_t>(ramps_.size() - 1);
 }
 
-// ---- pixels
-// ---------------------------------------------------------------------------------------------------------
+// ---- pixels -------------------------------------------------------------------------------------
 
 /// The same three bytes `count` times.
 void fill(std::uint8_t* to, std::int32_t count, const std::uint8_t (&rgb)[3]) {
@@ -859,8 +853,7 @@ void Solids::report(double build, double scan, double pixel) const {
   host_->log(host_, FAROP_LOG_INFO, text);
 }
 
-// ---- the interface: nothing is thrown across it
-// ---------------------------------------------------------------------
+// ---- the interface: nothing is thrown across it -------------------------------------------------
 
 template <class Body>
 farop_status guarded(const farop_host* host, const Body& body) noexcept {

@@ -160,8 +160,7 @@ class Watkins {
   std::size_t last_span_ = 0;
 };
 
-// ---- storing
-// --------------------------------------------------------------------------------------------------------
+// ---- storing ------------------------------------------------------------------------------------
 
 void Watkins::begin(const farop_frame& frame) {
   frame_ = &frame;
@@ -226,8 +225,7 @@ void Watkins::sort_into_buckets() {
   edge_table_.swap(sorted_);
 }
 
-// ---- active edges
-// ---------------------------------------------------------------------------------------------------
+// ---- active edges -------------------------------------------------------------------------------
 
 void Watkins::next_active_edges(std::int32_t line) {
   std::size_t kept = 0;
@@ -252,8 +250,7 @@ void Watkins::next_active_edges(std::int32_t line) {
   active_.swap(merged_);
 }
 
-// ---- segments
-// -------------------------------------------------------------------------------------------------------
+// ---- segments -----------------------------------------------------------------------------------
 
 double Watkins::at_crossing(const Edge& edge, double low, double high, std::int32_t line) const {
   const int bits = frame_->subpixel_bits;  // the denominator is the height of the edge << bits
@@ -288,8 +285,7 @@ void Watkins::cut_polygons(std::int32_t line) {
   });
 }
 
-// ---- sample spans
-// ---------------------------------------------------------------------------------------------------
+// ---- sample spans -------------------------------------------------------------------------------
 
 void Watkins::find_sample_spans(std::int32_t line) {
   met_.clear();
@@ -328,8 +324,7 @@ void Watkins::find_sample_spans(std::int32_t line) {
   }
 }
 
-// ---- the heap of segments that have begun
-// ---------------------------------------------------------------------------
+// ---- the heap of segments that have begun -------------------------------------------------------
 
 void Watkins::meet(std::uint32_t segment) {
   polygons_[segments_[segment].polygon].segment = segment;
@@ -404,8 +399,7 @@ std::uint32_t Watkins::visible_on_last_line(std::int32_t column) {
   return here ? segment : k_none;
 }
 
-// ---- pixels
-// ---------------------------------------------------------------------------------------------------------
+// ---- pixels -------------------------------------------------------------------------------------
 
 void Watkins::paint(std::int32_t line, const Segment& segment, std::int32_t from, std::int32_t end) {
   std::uint8_t* pixel = frame_->pixels + line * frame_->row_bytes + 3 * std::int64_t{from};
@@ -446,8 +440,7 @@ void Watkins::draw() {
   }
 }
 
-// ---- the interface: nothing is thrown across it
-// ---------------------------------------------------------------------
+// ---- the interface: nothing is thrown across it -------------------------------------------------
 
 const farop_host* g_host = nullptr;
 
