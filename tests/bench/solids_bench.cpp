@@ -32,28 +32,44 @@ struct Contestant {
   std::map<std::string, std::string> options;
 };
 
+/// `face` is the first member, so a pointer to it is one to the Host.
+struct Host {
+  farop_host face{};
+  std::map<std::string, std::string> options;
+  std::string last_line;
+
+  static Host& of(const farop_host* host) { return *reinterpret_cast<Host*>(const_cast<farop_host*>(host)); }
+};
+
 /// A rasterizer and its host.
 class Instance {
  public:
-  explicit Instance(const Contestant& contestant) : options_(contestant.options) {
+  explicit Instance(const Contestant& contestant) {
     void* const library = dlopen(contestant.library.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (library == nullptr) throw std::runtime_error(dlerror());
-    face_.struct_size = sizeof face_;
-    face_.abi_version = FAROP_ABI_VERSION;
-    face_.name = "solids_bench";
-    face_.log = [](const farop_host* host, farop_log_level, const char* text) { of(host).last_line = text; };
-    face_.option = [](const farop_host* host, const char* key) -> const char* {
-      const auto found = of(host).options_.find(key);
-      return found == of(host).options_.end() ? nullptr : found->second.c_str();
+    host_->options = contestant.options;
+    host_->face.struct_size = sizeof host_->face;
+    host_->face.abi_version = FAROP_ABI_VERSION;
+    host_->face.name = "solids_bench";
+    host_->face.log = [](const farop_host* host, farop_log_level, const char* text) {
+      Host::of(host).last_line = text;
     };
-    face_.extension = [](const farop_host*, const char*) -> const void* { return nullptr; };
+    host_->face.option = [](const farop_host* host, const char* key) -> const char* {
+      const auto found = Host::of(host).options.find(key);
+      return found == Host::of(host).options.end() ? nullptr : found->second.c_str();
+    };
+    host_->face.extension = [](const farop_host*, const char*) -> const void* { return nullptr; };
     using Entry = const farop_rasterizer* (*)(const farop_host*);
-    table_ = reinterpret_cast<Entry>(dlsym(library, FAROP_ENTRY_SYMBOL))(&face_);
-    check(table_->create(&face_, &self_));
+    const auto entry = reinterpret_cast<Entry>(dlsym(library, FAROP_ENTRY_SYMBOL));
+    if (entry == nullptr) throw std::runtime_error(contestant.library + ": no entry");
+    table_ = entry(&host_->face);
+    check(table_->create(&host_->face, &self_));
   }
   Instance(const Instance&) = delete;
   Instance& operator=(const Instance&) = delete;
   ~Instance() { table_->destroy(self_); }
+
+  const std::string& last_line() const { return host_->last_line; }
 
   /// Seconds of one frame.
   double draw(const std::vector<farop_polygon>& polygons, std::vector<std::uint8_t>& pixels) {
@@ -73,19 +89,12 @@ class Instance {
     return std::chrono::duration<double>(Clock::now() - start).count();
   }
 
-  std::string last_line;
-
  private:
-  static Instance& of(const farop_host* host) {
-    return *reinterpret_cast<Instance*>(const_cast<char*>(reinterpret_cast<const char*>(host)) -
-                                        offsetof(Instance, face_));
-  }
   void check(farop_status status) const {
-    if (status != FAROP_OK) throw std::runtime_error(table_->name + (": " + last_line));
+    if (status != FAROP_OK) throw std::runtime_error(table_->name + (": " + host_->last_line));
   }
 
-  farop_host face_{};
-  std::map<std::string, std::string> options_;
+  Host* host_ = new Host;  ///< the interface has hosts live as long as the process
   const farop_rasterizer* table_ = nullptr;
   void* self_ = nullptr;
 };
@@ -129,7 +138,7 @@ void run(const std::string& solid, const std::vector<Contestant>& contestants, i
       if (round < 3) continue;  // caches and buffers are filled first
       seconds[i].push_back(taken);
       for (const char* part : {"build", "scan", "pixel"}) {
-        parts[i][part].push_back(number(instances[i]->last_line, std::string(part) + "_seconds"));
+        parts[i][part].push_back(number(instances[i]->last_line(), std::string(part) + "_seconds"));
       }
     }
   }
@@ -137,7 +146,7 @@ void run(const std::string& solid, const std::vector<Contestant>& contestants, i
   std::printf("\n%s, %zu faces\n%-14s%12s%14s%12s%9s%9s%9s%9s%9s\n", solid.c_str(), polygons.size(), "",
               "edge table", "active, max", "compared", "build", "scan", "pixels", "all, ms", "ratio");
   for (std::size_t i = 0; i < contestants.size(); ++i) {
-    const std::string& line = instances[i]->last_line;
+    const std::string& line = instances[i]->last_line();
     const auto ms = [&](const char* part) { return 1000 * median(parts[i][part]); };
     std::printf("%-14s%12.0f%14.0f%12.0f%9.3f%9.3f%9.3f%9.3f%9.3f\n", contestants[i].name.c_str(),
                 number(line, "edge_table"), number(line, "active_edges_max"),
