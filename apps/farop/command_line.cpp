@@ -94,6 +94,11 @@ void CommandLine::add_report_options(CLI::App& command) {
   command.add_option("--stats", options.stats_file, "write counts, timers and memory as JSON")
       ->type_name("FILE.json")
       ->group("Report");
+  command
+      .add_option("--trace", options.trace_file,
+                  "write when each stage ran, for Perfetto or chrome://tracing")
+      ->type_name("FILE.json")
+      ->group("Report");
   command.add_flag("-v,--verbose", options.verbose, "tell every step, light and surface")->group("Report");
   command.add_flag("-q,--quiet", options.quiet, "tell only warnings and errors")->group("Report");
   command.add_flag("--no-progress", options.no_progress, "no progress bar")->group("Report");
@@ -158,6 +163,7 @@ int CommandLine::run(std::vector<std::string> arguments) {
   }
 
   session_->console.configure(session_->options);
+  if (!session_->options.trace_file.empty()) session_->clocks.trace_to(session_->trace);
   ExitStatus status = ExitStatus::ok;
   const auto fail = [&](const Error& error) {
     status = error.status();

@@ -79,7 +79,7 @@ std::string usage_line(const CLI::App& command) {
 }
 
 std::string command_help(const CLI::App& command, const std::vector<Example>& examples) {
-  std::string out = fmt::format("{}\n\nUsage: {}\n", command.get_description(), usage_line(command));
+  std::string out = fmt::format("{}\nUsage: {}\n", command.get_description(), usage_line(command));
   for (const std::string& group : option_groups(command)) {
     out += fmt::format("\n{}\n", group);
     for (const CLI::Option* option : options_of_group(command, group)) {

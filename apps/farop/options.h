@@ -49,6 +49,7 @@ struct DrawingOptions {
 
 struct ReportOptions {
   std::string stats_file;
+  std::string trace_file;
   bool verbose = false;
   bool quiet = false;
   bool no_progress = false;

@@ -127,9 +127,19 @@ void Session::stop_if_strict_found_errors() const {
   if (console.errors() > 0) throw Error(ExitStatus::input, "");
 }
 
+void RunClocks::trace_to(TraceLog& log) {
+  total.trace_to(&log, "total");
+  parse.trace_to(&log, "parse");
+  load.trace_to(&log, "load");
+  drawing.geometry.trace_to(&log, "geometry");
+  drawing.sink.trace_to(&log, "rasterize");
+  write.trace_to(&log, "write");
+}
+
 void Session::finish(ExitStatus status) {
   console.end_progress();
   if (!options.stats_file.empty()) write_stats(*this, status);
+  if (!options.trace_file.empty()) write_trace(*this);
 }
 
 void load_inputs(Session& session, const InputOptions& options) {

@@ -21,6 +21,9 @@ struct RunClocks {
   StageTimer parse, load, write, total;
   GeometryClocks
       drawing;  ///< geometry, and what takes its polygons (rasterize; for `export` that is writing)
+
+  /// Every slice of every stage goes to `log` as well.
+  void trace_to(TraceLog& log);
 };
 
 /// What a run has found out, for --stats and the summaries. Parts that do not apply stay empty.
@@ -55,6 +58,7 @@ class Session {
   RunClocks clocks;
   RunReport report;
   ReportOptions options;
+  TraceLog trace;  ///< filled under --trace
 
   /// Ends the run: `--stats` is written whatever the status.
   void finish(ExitStatus status);

@@ -147,4 +147,31 @@ void write_stats(const Session& session, ExitStatus status) {
   file.commit();
 }
 
+void write_trace(const Session& session) {
+  const auto& slices = session.trace.slices();
+  double begin = slices.empty() ? 0 : slices.front().begin;
+  for (const TraceLog::Slice& slice : slices) begin = std::min(begin, slice.begin);
+  OutputFile file(session.options.trace_file);
+  // Line by line: a document of a million events would be held twice.
+  file.write("{\"displayTimeUnit\": \"ms\", \"traceEvents\": [\n");
+  const Json name{{"name", "process_name"},
+                  {"ph", "M"},
+                  {"pid", 1},
+                  {"args", {{"name", "farop " + session.report.command}}}};
+  file.write(name.dump());
+  for (const TraceLog::Slice& slice : slices) {
+    const bool writes = session.report.sink_writes && std::string_view(slice.stage) == "rasterize";
+    const Json event{{"name", writes ? "write" : slice.stage},
+                     {"ph", "X"},
+                     {"pid", 1},
+                     {"tid", 1},
+                     {"ts", 1e6 * (slice.begin - begin)},
+                     {"dur", 1e6 * (slice.end - slice.begin)}};
+    file.write(",\n" + event.dump());
+  }
+  file.write(fmt::format("\n], \"otherData\": {{\"version\": \"{}\", \"slices_left_out\": {}}}}}\n",
+                         k_version, session.trace.left_out()));
+  file.commit();
+}
+
 }  // namespace farop::app

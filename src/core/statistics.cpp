@@ -28,6 +28,7 @@ void StageTimer::start() {
 void StageTimer::stop() {
   const StageTime end = now();
   total_ += {end.elapsed - begun_.elapsed, end.user - begun_.user, end.system - begun_.system};
+  if (log_ != nullptr) log_->add({stage_, begun_.elapsed, end.elapsed});
 }
 
 std::uint64_t peak_memory_bytes() {

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace farop {
 
@@ -32,10 +34,37 @@ struct StageTime {
   }
 };
 
+/// Slices of stages in the order they ended, for a picture of the run along its time.
+class TraceLog {
+ public:
+  struct Slice {
+    const char* stage;
+    double begin, end;  ///< seconds on the steady clock
+  };
+  /// Beyond so many slices only the number of those left out grows: some 32 MB at most.
+  static constexpr std::size_t k_max_slices = 1'000'000;
+
+  void add(const Slice& slice) {
+    if (slices_.size() < k_max_slices) {
+      slices_.push_back(slice);
+    } else {
+      ++left_out_;
+    }
+  }
+  const std::vector<Slice>& slices() const { return slices_; }
+  std::uint64_t left_out() const { return left_out_; }
+
+ private:
+  std::vector<Slice> slices_;
+  std::uint64_t left_out_ = 0;
+};
+
 /// Adds the time of a stage in slices: start() ... stop() any number of times. CPU time is that of the whole
 /// process.
 class StageTimer {
  public:
+  /// From now on every slice also goes to `log`, under this name; both must outlive the timer.
+  void trace_to(TraceLog* log, const char* stage) { log_ = log, stage_ = stage; }
   void start();
   void stop();
   bool ran() const { return ran_; }
@@ -45,6 +74,8 @@ class StageTimer {
   StageTime total_;
   StageTime begun_;
   bool ran_ = false;
+  TraceLog* log_ = nullptr;
+  const char* stage_ = "";
 };
 
 /// Runs a StageTimer for the length of a block.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -56,6 +57,29 @@ TEST(Help, ExamplesOfEveryCommandWork) {
     }
   }
   EXPECT_EQ(examples, 24);
+}
+
+TEST(Trace, HasASliceOfEveryStageInsideTheWholeRun) {
+  const TemporaryFolder folder;
+  must(folder, "farop spd gears -q | farop render - -o g.ppm -q --trace t.json");
+  const Json trace = Json::parse(read_file(folder / "t.json"));
+  EXPECT_EQ(trace["otherData"]["slices_left_out"], 0);
+  std::map<std::string, int> slices;
+  double end = 0, total = 0, inside = 0;
+  for (const Json& event : trace["traceEvents"]) {
+    if (event["ph"] != "X") continue;
+    ++slices[event["name"]];
+    const double duration = event["dur"];
+    EXPECT_GE(event["ts"].get<double>(), 0);
+    end = std::max(end, event["ts"].get<double>() + duration);
+    (event["name"] == "total" ? total : inside) += duration;
+  }
+  EXPECT_EQ(slices["total"], 1);
+  EXPECT_EQ(slices["parse"], 1);
+  EXPECT_GT(slices["geometry"], 2);  // batch by batch
+  EXPECT_GT(slices["rasterize"], 2);
+  EXPECT_LE(inside, total + 1);  // stages do not overlap; microseconds
+  EXPECT_LE(end, total + 1);
 }
 
 TEST(Manual, ListsEveryCommandAndIsCleanRoff) {
