@@ -214,7 +214,7 @@ void RunnerProcess::start_clocks(const RunnerLimits& limits) {
   waited_ = {};
   if (runner_pid_ < 0) return;
   // Should this process be stopped, the kernel ends the runner. A second more than ours: then the words are
-  // ours.
+  // ours. Not where the runner has become another user and we lack the capability for it.
   rlimit limit{};
   limit.rlim_cur = static_cast<rlim_t>(std::ceil(cpu_start_ + limits.cpu_seconds)) + 1;
   limit.rlim_max = RLIM_INFINITY;

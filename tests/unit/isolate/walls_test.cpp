@@ -20,8 +20,11 @@ namespace {
 
 using namespace test;
 
+/// As the runner says: whether the layer does what it should is for the tests to see.
 bool layer_stands(char letter) {
-  for (const IsolationLayer& layer : probe_isolation(FAROP_RUNNER)) {
+  IsolationOptions options = options_for_tests();
+  const IsolatedRasterizer rasterizer(plugin_path("filler"), options, {});
+  for (const IsolationLayer& layer : rasterizer.report().layers) {
     if (layer.id.front() == letter) return layer.holds;
   }
   return false;
@@ -52,7 +55,7 @@ TEST(Walls, NamespacesStopFiles) {
   expect_stopped_by('B', "read-file");
 }
 TEST(Walls, NamespacesStopSignals) {
-  if (::geteuid() != 0) expect_stopped_by('B', "signal-outside");
+  expect_stopped_by('B', "signal-outside");
 }
 TEST(Walls, LandlockStopsFiles) {
   expect_stopped_by('C', "read-file");
