@@ -71,6 +71,7 @@ class Warden {
     int namespaces = 0;
     if ((settings_.layers & k_namespaces) != 0) {
       namespaces = enter_namespaces(k_library_fd);
+      if (namespaces < 0) give_up("a private root folder", -namespaces);
       // Half a wall may stand: new processes may be in a namespace that wants an init.
       init_ = ::fork();
       if (init_ == 0) be_init(self);

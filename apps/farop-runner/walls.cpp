@@ -151,10 +151,13 @@ int build_root(int library_fd) {
   if (!copy_library(library_fd, root + k_library_inside, bytes)) return errno;
   if (::mkdir((root + "/empty").c_str(), 0555) != 0) return errno;
   // The old root ends up on top of the new one and is taken off.
-  if (::chdir(root.c_str()) != 0 || ::syscall(SYS_pivot_root, ".", ".") != 0) return errno;
-  if (::umount2(".", MNT_DETACH) != 0 || ::chdir("/empty") != 0) return errno;
+  if (::chdir(root.c_str()) != 0 || ::syscall(SYS_pivot_root, ".", ".") != 0) {
+    const int error = errno;
+    return ::chdir("/") == 0 ? error : -error;
+  }
+  if (::umount2(".", MNT_DETACH) != 0 || ::chdir("/empty") != 0) return -errno;
   if (::mount(nullptr, "/", nullptr, MS_REMOUNT | MS_BIND | MS_RDONLY | MS_NOSUID | MS_NODEV, nullptr) != 0) {
-    return errno;
+    return -errno;
   }
   return 0;
 }

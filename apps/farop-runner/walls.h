@@ -25,7 +25,8 @@ int limit_resources(std::uint64_t memory_bytes, std::uint32_t threads);
 
 /// Layer B, in the warden: namespaces for its children (processes, mounts, network, IPC, host name) and a
 /// root file system of nothing but library folders and, as /rasterizer.so, the library. The warden itself
-/// stays in the outer process namespace.
+/// stays in the outer process namespace. Negative: an errno after which there is no way back to a state in
+/// which a library could be loaded.
 int enter_namespaces(int library_fd);
 /// Where enter_namespaces() puts the library.
 constexpr const char* k_library_inside = "/rasterizer.so";

@@ -47,8 +47,7 @@ std::string write_verdict(std::int64_t offset, const farop_frame& frame) {
 std::string place_of(std::int64_t offset, const farop_frame& frame) {
   const std::int64_t y = floor_divided(offset, frame.row_bytes);
   const std::int64_t x = (offset - y * frame.row_bytes) / 3;
-  // Row 0 is below row 1, or above it under --y-down: words that are right for both.
-  const std::string pixel = fmt::format("row {}, column {}", y, x);
+  std::string pixel = fmt::format("row {}, column {}", y, x);
   if (offset < 0) {
     return fmt::format("{} ({} {} before the first)", pixel, -y, rows(-y));
   }

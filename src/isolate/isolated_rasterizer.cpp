@@ -19,6 +19,7 @@
 #include <random>
 #include <set>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "core/diagnostics.h"
@@ -307,6 +308,11 @@ class IsolatedRasterizer::Judge {
                     layer.how_to_enable.empty() ? "`farop doctor` shows what this machine offers"
                                                 : layer.how_to_enable);
       }
+    }
+    std::error_code error;
+    if ((hello_->layers & k_namespaces) == 0 && !std::filesystem::exists("/proc/self/fd", error)) {
+      drop_process();
+      throw Error(ExitStatus::surroundings, "rasterizers cannot be loaded without /proc", "mount /proc");
     }
     process_->start_clocks(options_.limits);  // now that the runner is known
     Request load;

@@ -334,6 +334,11 @@ TEST(Walls, OnAMachineThatForbidsSomeTheOthersStand) {
   EXPECT_EQ(standing_layers({{SYS_landlock_create_ruleset, ENOSYS}}), "0ABD crash.segv limit.syscall");
   EXPECT_EQ(standing_layers({{SYS_landlock_create_ruleset, EOPNOTSUPP}, {SYS_unshare, ENOSPC}}),
             "0AD crash.segv limit.syscall");
+  // Namespaces, but no root folder of its own.
+  EXPECT_EQ(standing_layers({{SYS_mount, EPERM}}), "0ACD crash.segv limit.syscall");
+  EXPECT_EQ(standing_layers({{SYS_pivot_root, EPERM}}), "0ACD crash.segv limit.syscall");
+  EXPECT_EQ(standing_layers({{SYS_umount2, EPERM}}),
+            "cannot run a rasterizer beside farop: a private root folder: Operation not permitted");
   // Without a filter a child is started; the limits stop it where they count, and the sweep ends it.
   const std::string unfiltered = standing_layers({{SYS_seccomp, EINVAL}}, PR_SET_SECCOMP);
   EXPECT_EQ(unfiltered.substr(0, 16), "0ABC crash.segv ") << unfiltered;
