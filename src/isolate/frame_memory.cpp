@@ -14,15 +14,18 @@ namespace farop::isolate {
 namespace {
 
 constexpr std::uint64_t k_page = 4096;
+constexpr std::uint64_t k_block = std::uint64_t{1} << 20;
+/// Frames up to this size are kept as they were sent: the same again is for free then.
+constexpr std::uint64_t k_max_kept = std::uint64_t{32} << 20;
 
 std::uint64_t whole_pages(std::uint64_t bytes) {
   return (bytes + k_page - 1) / k_page * k_page;
 }
 
-/// splitmix64 (Steele, Lea, Flood 2014): enough to be unguessable in passing, and fast.
-std::uint64_t next_random(std::uint64_t& state) {
-  state += 0x9E3779B97F4A7C15u;
-  std::uint64_t z = state;
+/// Word number `index` of a stream: the finisher of splitmix64 (Steele, Lea, Flood 2014). Unguessable in
+/// passing, and any part of the stream can be had alone.
+std::uint64_t random_word(std::uint64_t seed, std::uint64_t index) {
+  std::uint64_t z = seed + (index + 1) * 0x9E3779B97F4A7C15u;
   z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
   z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
   return z ^ (z >> 31);
@@ -61,43 +64,72 @@ std::string place_of(std::int64_t offset, const farop_frame& frame) {
   return pixel;
 }
 
-void FrameMemory::fill(std::vector<std::byte>& bytes) {
-  std::size_t at = 0;
-  for (; at + 8 <= bytes.size(); at += 8) {
-    const std::uint64_t word = next_random(random_);
-    std::memcpy(bytes.data() + at, &word, 8);
+void FrameMemory::make(std::uint64_t at, std::span<std::byte> bytes) const {
+  const std::uint64_t end = at + bytes.size();
+  for (std::uint64_t word = at / 8; word * 8 < end; ++word) {
+    const std::uint64_t value = random_word(seed_, word);
+    const std::uint64_t from = std::max(at, word * 8), to = std::min(end, word * 8 + 8);
+    std::memcpy(bytes.data() + (from - at), reinterpret_cast<const char*>(&value) + (from - word * 8),
+                to - from);
+  }
+  const auto row_bytes = static_cast<std::uint64_t>(row_bytes_);
+  const std::uint64_t pixels = 3 * static_cast<std::uint64_t>(shape_.width);
+  const auto height = static_cast<std::uint64_t>(shape_.height);
+  for (std::uint64_t y = at > offset_ ? (at - offset_) / row_bytes : 0; y < height; ++y) {
+    const std::uint64_t row = offset_ + y * row_bytes;
+    if (row >= end) break;
+    const std::uint64_t from = std::max(at, row), to = std::min(end, row + pixels);
+    if (from >= to) continue;
+    // A few pixels by hand, the rest by copying what is there: 48 is whole pixels.
+    std::byte* const out = bytes.data() + (from - at);
+    const std::uint64_t count = to - from;
+    std::uint64_t done = std::min<std::uint64_t>(count, 48);
+    for (std::uint64_t i = 0; i < done; ++i) out[i] = std::byte{shape_.background[(from - row + i) % 3]};
+    for (; done < count; done += std::min(done, count - done)) {
+      std::memcpy(out + done, out, std::min(done, count - done));
+    }
   }
 }
 
 bool FrameMemory::prepare(farop_frame& frame) {
-  frame.row_bytes = (3 * std::int64_t{frame.width} + 15) / 16 * 16 + 16;
-  bytes_ = static_cast<std::uint64_t>(frame.row_bytes * (frame.height - 1) + 3 * std::int64_t{frame.width});
+  const Shape shape{
+      frame.width, frame.height, {frame.background[0], frame.background[1], frame.background[2]}};
+  row_bytes_ = (3 * std::int64_t{frame.width} + 15) / 16 * 16 + 16;
+  bytes_ = static_cast<std::uint64_t>(row_bytes_ * (frame.height - 1) + 3 * std::int64_t{frame.width});
   const std::uint64_t all = whole_pages(bytes_ + k_apron_bytes);
+  offset_ = touches_ == Touches::end ? all - bytes_ : 0;
   const bool is_new = !memory_ || memory_.bytes() != all;
+  const bool alike = !is_new && shape == shape_;
+  shape_ = shape;
   try {
     if (is_new) {
       memory_ = SharedMemory();  // the old one first: never two of them
-      sent_.clear(), got_.clear();
+      sent_ = {}, got_ = {};
       memory_ = SharedMemory("farop-frame", all);
-      sent_.resize(all);
       got_.resize(all);
+    }
+    const bool keep = all <= k_max_kept;
+    if (keep && !alike) {
+      sent_.resize(all);
+      make(0, sent_);
+    }
+    if (keep) {
+      memory_.write(0, sent_);
+    } else {
+      std::vector<std::byte> block(k_block);
+      for (std::uint64_t at = 0; at < all; at += k_block) {
+        const std::span<std::byte> part = std::span(block).first(std::min(k_block, all - at));
+        make(at, part);
+        memory_.write(at, part);
+      }
     }
   } catch (const std::bad_alloc&) {
     throw Error(ExitStatus::surroundings,
                 fmt::format("not enough memory for a frame of {} x {} pixels", frame.width, frame.height),
                 "use a smaller --resolution or fewer --samples");
   }
-  offset_ = touches_ == Touches::end ? all - bytes_ : 0;
-  frame.pixels = reinterpret_cast<std::uint8_t*>(sent_.data() + offset_);
-  // Nobody else writes to `sent_`: for frames alike it is ready.
-  const Shape shape{
-      frame.width, frame.height, {frame.background[0], frame.background[1], frame.background[2]}};
-  if (is_new || shape != shape_) {
-    fill(sent_);
-    clear_frame(frame);
-    shape_ = shape;
-  }
-  memory_.write(0, sent_);
+  frame.row_bytes = row_bytes_;
+  frame.pixels = nullptr;
   return is_new;
 }
 
@@ -107,11 +139,18 @@ std::vector<PluginFinding> FrameMemory::fetch(farop_frame& frame) {
   }
   frame.pixels = reinterpret_cast<std::uint8_t*>(got_.data() + offset_);
   std::vector<PluginFinding> findings;
+  std::vector<std::byte> scratch;
   const auto look = [&](std::uint64_t begin, std::uint64_t end, const char* verdict, const char* hint) {
-    if (end <= begin || std::memcmp(&sent_[begin], &got_[begin], end - begin) == 0) return false;
+    if (end <= begin) return false;
+    if (sent_.empty()) {
+      scratch.resize(end - begin);
+      make(begin, scratch);
+    }
+    const std::byte* const sent = sent_.empty() ? scratch.data() : &sent_[begin];
+    if (std::memcmp(sent, &got_[begin], end - begin) == 0) return false;
     std::uint64_t first = begin, count = 0;
     for (std::uint64_t i = begin; i < end; ++i) {
-      if (sent_[i] == got_[i]) continue;
+      if (sent[i - begin] == got_[i]) continue;
       if (count++ == 0) first = i;
     }
     PluginFinding finding;
@@ -128,14 +167,14 @@ std::vector<PluginFinding> FrameMemory::fetch(farop_frame& frame) {
     const std::uint64_t row = offset_ + static_cast<std::uint64_t>(y * frame.row_bytes);
     const std::uint64_t gap = row + 3 * static_cast<std::uint64_t>(frame.width);
     const std::uint64_t end =
-        std::min<std::uint64_t>(row + static_cast<std::uint64_t>(frame.row_bytes), sent_.size());
+        std::min<std::uint64_t>(row + static_cast<std::uint64_t>(frame.row_bytes), memory_.bytes());
     if (look(gap, end, "oob.write-stride",
              "a row has 3 * width bytes of pixels; the next one begins row_bytes after it")) {
       break;
     }
   }
-  look(offset_ + static_cast<std::uint64_t>(frame.row_bytes * frame.height), sent_.size(), "oob.write-after",
-       "check coordinates against width and height before you write");
+  look(offset_ + static_cast<std::uint64_t>(frame.row_bytes * frame.height), memory_.bytes(),
+       "oob.write-after", "check coordinates against width and height before you write");
   return findings;
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,7 @@ std::string write_verdict(std::int64_t offset, const farop_frame& frame);
 class FrameMemory {
  public:
   enum class Touches { end, begin };
-  FrameMemory(Touches touches, std::uint64_t seed) : touches_(touches), random_(seed) {}
+  FrameMemory(Touches touches, std::uint64_t seed) : touches_(touches), seed_(seed) {}
 
   /// Makes room for `frame` (row_bytes is set here) and fills it: background, and random bytes elsewhere.
   /// True: the memory is new.
@@ -43,14 +44,17 @@ class FrameMemory {
     std::array<std::uint8_t, 3> background{};
     friend bool operator==(const Shape&, const Shape&) = default;
   };
-  void fill(std::vector<std::byte>& bytes);
+  /// What the rasterizer is given, from byte `at` of the memory on.
+  void make(std::uint64_t at, std::span<std::byte> bytes) const;
 
   Touches touches_;
-  std::uint64_t random_;
+  std::uint64_t seed_;
   SharedMemory memory_;
   std::uint64_t offset_ = 0, bytes_ = 0;
-  Shape shape_;  ///< of what `sent_` holds
-  std::vector<std::byte> sent_, got_;
+  std::int64_t row_bytes_ = 0;
+  Shape shape_;                  ///< of the frame
+  std::vector<std::byte> sent_;  ///< made once for frames alike; empty for large ones
+  std::vector<std::byte> got_;
 };
 
 }  // namespace farop::isolate

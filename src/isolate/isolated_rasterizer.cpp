@@ -185,7 +185,12 @@ class IsolatedRasterizer::Judge {
 
     Request request;
     request.kind = RequestKind::begin_frame;
-    request.memory = number % 2;
+    // Large frames have one memory, not two that take turns.
+    constexpr std::int64_t large = std::int64_t{64} << 20;
+    const bool is_large = 3 * std::int64_t{frame_.width} * frame_.height > large;
+    if (is_large)
+      frames_[1] = FrameMemory(FrameMemory::Touches::begin, ~options_.seed), knows_memory_[1] = false;
+    memory_in_use_ = request.memory = is_large ? 0 : number % 2;
     int memory = -1;
     if (draws_here()) {
       FrameMemory& store = frames_[request.memory];
@@ -226,7 +231,7 @@ class IsolatedRasterizer::Judge {
     ask(request);
     while (!outstanding_.empty()) attend(true);
     if (draws_here()) {
-      for (PluginFinding& finding : frames_[frame_.number % 2].fetch(frame_)) add(std::move(finding));
+      for (PluginFinding& finding : frames_[memory_in_use_].fetch(frame_)) add(std::move(finding));
     }
     look_at_output();
     look_at_memory();
@@ -684,6 +689,7 @@ class IsolatedRasterizer::Judge {
   SharedMemory library_, black_box_, ring_;
   WritableView ring_view_;
   std::array<FrameMemory, 2> frames_;
+  std::uint32_t memory_in_use_ = 0;
   std::array<bool, 2> knows_memory_{};  ///< the runner has it already
   std::unique_ptr<RunnerProcess> process_;
   std::optional<Hello> hello_;

@@ -116,12 +116,13 @@ std::set<int> processes_running(const std::string& program) {
   return found;
 }
 
-PluginFinding sin_finding(const std::string& sin, IsolationOptions options, int sinful_frame, int frames) {
+PluginFinding sin_finding(const std::string& sin, IsolationOptions options, int sinful_frame, int frames,
+                          int scale) {
   options.plugin_options["sin"] = sin;
   options.plugin_options["frame"] = std::to_string(sinful_frame);
   try {
     IsolatedRasterizer rasterizer(plugin_path("sinner"), options, {});
-    const Drawing drawing = triangles(16, 16, 5, 2);
+    const Drawing drawing = triangles(16 * scale, 16 * scale, 5, 2);
     for (int i = 0; i < frames; ++i) draw(rasterizer, drawing);
     if (!rasterizer.findings().empty()) return rasterizer.findings().front();
   } catch (const PluginFailure& failure) {

@@ -38,9 +38,9 @@ Belongings belongings();
 /// Processes of any parent that run the given program.
 std::set<int> processes_running(const std::string& program);
 
-/// Draws a frame (or several) with the sinner; the finding that ended it, or the first that did not, or one
-/// with the verdict "pass". `polygon_is` as it was reported, -1 for none.
+/// Draws a frame of 16 * scale pixels (or several) with the sinner; the finding that ended it, or the first
+/// that did not, or one with the verdict "pass".
 PluginFinding sin_finding(const std::string& sin, IsolationOptions options = options_for_tests(),
-                          int sinful_frame = 0, int frames = 1);
+                          int sinful_frame = 0, int frames = 1, int scale = 1);
 
 }  // namespace farop::test

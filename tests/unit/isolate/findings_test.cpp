@@ -96,6 +96,13 @@ TEST(Findings, OneVertexTooManyIsNoticedWithEveryPolygonOnItsOwn) {
   }
 }
 
+TEST(Findings, LargeFramesHaveAnApronToo) {
+  EXPECT_EQ(sin_finding("before", options_for_tests(), 0, 1, 250).verdict, "oob.write-before");
+  EXPECT_EQ(sin_finding("stride", options_for_tests(), 0, 1, 250).verdict, "oob.write-stride");
+  EXPECT_EQ(sin_finding("after", options_for_tests(), 1, 2, 220).verdict, "oob.write-after");
+  EXPECT_EQ(sin_finding("", options_for_tests(), 0, 2, 250).verdict, "pass");
+}
+
 TEST(Findings, LoadingIsPartOfIt) {
   const auto verdict = [](const std::string& path, const std::string& sin) {
     IsolationOptions options = options_for_tests();

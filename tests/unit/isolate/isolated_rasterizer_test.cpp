@@ -48,6 +48,13 @@ TEST(IsolatedRasterizer, DrawsWhatTheRasterizerDrawsInThisProcess) {
               plain);
 }
 
+TEST(IsolatedRasterizer, DrawsLargeFramesBetweenSmallOnes) {
+  // More than is kept (32 MiB), more than two take turns with (64 MiB).
+  const Drawing large = triangles(4000, 3000, 2, 1), larger = triangles(6000, 4000, 2, 1);
+  expect_same({triangles(20, 10, 9, 5), large, larger, triangles(20, 10, 9, 5, 0, 3), larger, large},
+              {1, {0.1, 0.5, 0.9}});
+}
+
 TEST(IsolatedRasterizer, AveragesSamplesAndFlipsLikeTheOneInThisProcess) {
   Drawing down = triangles(30, 12, 40, 7, 4);
   down.frame.y_down = true;
