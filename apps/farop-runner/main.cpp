@@ -118,13 +118,18 @@ class Warden {
     }
   }
 
+  /// Never with -1, which would mean everybody.
+  void kill_runner() const {
+    if (runner_ > 0) ::kill(runner_, SIGKILL);
+  }
+
   /// False: the judge is gone.
   bool take_order() {
     std::array<char, 16> order{};
     const ssize_t got = ::recv(k_warden_fd, order.data(), order.size(), MSG_DONTWAIT);
     if (got < 0) return errno == EAGAIN || errno == EINTR;
     if (got == 0) return false;
-    if (order[0] == k_kill) ::kill(runner_, SIGKILL);
+    if (order[0] == k_kill) kill_runner();
     if (order[0] == k_loaded) loaded_ = true;
     return true;
   }
@@ -191,7 +196,7 @@ class Warden {
     }
     if ((answer.flags & SECCOMP_USER_NOTIF_FLAG_CONTINUE) == 0 && worth_a_word) {
       note(number, refusal);
-      if (refusal.fatal) ::kill(runner_, SIGKILL);
+      if (refusal.fatal) kill_runner();
     }
     ::ioctl(listener_, SECCOMP_IOCTL_NOTIF_SEND, &answer);
   }
@@ -233,7 +238,7 @@ class Warden {
 
   /// Kills what is left, and only then says that all is over.
   void sweep() {
-    if (runner_ > 0) ::kill(runner_, SIGKILL);
+    kill_runner();
     if (init_ > 0) ::kill(init_, SIGKILL);
     // Children of children come back here as their parents die (PR_SET_CHILD_SUBREAPER).
     for (int round = 0; round < 2000; ++round) {
