@@ -3,6 +3,7 @@
 
 #include <farop/rasterizer.h>
 #include <fcntl.h>
+#include <sched.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
@@ -219,21 +220,26 @@ class Cage {
     header->cmsg_level = SOL_SOCKET, header->cmsg_type = SCM_RIGHTS;
     header->cmsg_len = CMSG_LEN(sizeof descriptor);
     std::memcpy(CMSG_DATA(header), &descriptor, sizeof descriptor);
-    if (::sendmsg(k_warden_fd, &message, MSG_NOSIGNAL) != 1) std::_Exit(k_exit_control);
+    // ETOOMANYREFS and the like pass.
+    for (int i = 0; ::sendmsg(k_warden_fd, &message, MSG_NOSIGNAL) != 1; ++i) {
+      if (i == 200) std::_Exit(k_exit_handover);
+      const timespec moment{0, 1000000};
+      ::nanosleep(&moment, nullptr);
+    }
     ::close(descriptor);
   }
 
   void map_shared_memory() {
     void* const box =
         ::mmap(nullptr, k_black_box_bytes, PROT_READ | PROT_WRITE, MAP_SHARED, k_black_box_fd, 0);
-    if (box == MAP_FAILED) std::_Exit(k_exit_control);
+    if (box == MAP_FAILED) std::_Exit(k_exit_black_box);
     box_ = static_cast<BlackBox*>(box);
     ::close(k_black_box_fd);
     for (int slot = 0; slot < k_ring_slots; ++slot) {
       KnownMemory& memory = g_known.chunks[slot];
       memory = reserve(k_slot_bytes);
       if (!map(memory, k_slot_bytes, PROT_NONE, k_ring_fd, static_cast<off_t>(k_slot_bytes) * slot)) {
-        std::_Exit(k_exit_control);
+        std::_Exit(k_exit_ring);
       }
     }
     ::close(k_ring_fd);
@@ -303,7 +309,9 @@ class Cage {
     header.msg_iov = &part, header.msg_iovlen = 1;
     for (;;) {
       if (::sendmsg(k_control_fd, &header, MSG_NOSIGNAL) >= 0) return;
-      if (errno != EINTR) std::_Exit(errno == EPIPE ? 0 : k_exit_control);
+      const bool passes = errno == EINTR || errno == ENOBUFS || errno == ENOMEM || errno == EAGAIN;
+      if (!passes) std::_Exit(errno == EPIPE ? 0 : k_exit_control);
+      if (errno != EINTR) ::sched_yield();
     }
   }
 

@@ -300,9 +300,17 @@ class IsolatedRasterizer::Judge {
     start.settings.memory_bytes = options_.limits.memory_bytes;
     start.settings.cookie = random_cookie();
     start.options = &options_.plugin_options;
-    process_ = std::make_unique<RunnerProcess>(start);
-    process_->start_clocks(options_.limits);
-    while (!hello_) attend(true);
+    // Nothing of the rasterizer runs before the runner has introduced itself: when it fails so early the
+    // machine was short of something, and may not be the next time.
+    for (int tries = 3; !hello_; --tries) {
+      try {
+        process_ = std::make_unique<RunnerProcess>(start);
+        process_->start_clocks(options_.limits);
+        while (!hello_) attend(true);
+      } catch (const Error& error) {
+        if (tries == 1 || error.status() != ExitStatus::internal) throw;
+      }
+    }
     layers_ = layers_of(*hello_, start.settings.layers);
     if (options_.isolation == Isolation::strict) {
       for (const IsolationLayer& layer : layers_) {

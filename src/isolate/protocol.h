@@ -141,6 +141,8 @@ struct LogLine {
 constexpr int k_exit_control = 99;
 /// What it ends with when it cannot map what the judge sent.
 constexpr int k_exit_memory = 98;
+/// Before anything of the rasterizer is there: what could not be set up.
+constexpr int k_exit_black_box = 91, k_exit_ring = 92, k_exit_handover = 93;
 
 // ---- warden to judge ------------------------------------------------------------------------------------
 
