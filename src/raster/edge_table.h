@@ -5,10 +5,10 @@
 // edges e with ymin(e) <= j < ymax(e) and x_e(j) <= i is odd: left and bottom edges belong to the polygon,
 // right and top ones do not. Concave polygons, edges walked twice, zero-length edges and polygons that cross
 // themselves need no special case. Sample (i, j) lies at (i << N, j << N) in vertex units, N = subpixel_bits.
-// Cost:     O(n + rows) to load, O(k log k) a row with k active edges, O(k) where their order does not
-// change. Numbers:  legal coordinates reach 32767 * 16 << 8 < 2^27; every int32 is safe. Stepping stays below
-// 2^41; only the
-//           first crossing of an edge and comparisons of equal columns take products of more than 64 bits.
+// Cost:     O(n + rows) to load, O(k log k) a row with k active edges, O(k) where their order stays.
+// Numbers:  legal coordinates reach 32767 * 16 << 8 < 2^27; every int32 is safe. Stepping stays below 2^41;
+//           only the first crossing of an edge and comparisons of equal columns take products of more than 64
+//           bits.
 // Source:   J. D. Foley et al., "Computer Graphics: Principles and Practice", 2nd ed., 1990, section 3.6.
 #pragma once
 
