@@ -71,8 +71,7 @@ class LibraryDrawer : public Drawer {
   LibraryDrawer(Session& session, const std::string& file, const LoadableRasterizer& what,
                 const PluginDrawing& drawing)
       : console_(session.console),
-        // Libraries keep pointers to it until the process ends.
-        services_(*new HostServices(what.options, log_to(session.console))),
+        services_(HostServices::for_the_life_of_the_process(what.options, log_to(session.console))),
         library_(open(session, file, what.library, services_)),
         rasterizer_(library_, services_, drawing) {}
   ScreenPolygonSink& sink() override { return rasterizer_; }

@@ -3,8 +3,10 @@
 
 #include <cstddef>
 #include <cstring>
+#include <memory>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "core/diagnostics.h"
 
@@ -20,6 +22,14 @@ HostServices::HostServices(std::map<std::string, std::string> options, PluginLog
     : table_{{sizeof(farop_host), FAROP_ABI_VERSION, "farop", log_line, option_value, extension_named}, this},
       options_(std::move(options)),
       log_(std::move(log)) {}
+
+HostServices& HostServices::for_the_life_of_the_process(std::map<std::string, std::string> options,
+                                                        PluginLog log) {
+  // Never destroyed itself, so that a library's own destructors may still log.
+  static auto* const all = new std::vector<std::unique_ptr<HostServices>>;
+  all->push_back(std::make_unique<HostServices>(std::move(options), std::move(log)));
+  return *all->back();
+}
 
 HostServices& HostServices::of(const farop_host* host) {
   static_assert(std::is_standard_layout_v<Table> && offsetof(Table, host) == 0);

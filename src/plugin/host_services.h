@@ -23,6 +23,9 @@ class HostServices {
   HostServices(const HostServices&) = delete;
   HostServices& operator=(const HostServices&) = delete;
 
+  /// One that is never destroyed, for libraries that are loaded into this process.
+  static HostServices& for_the_life_of_the_process(std::map<std::string, std::string> options, PluginLog log);
+
   const farop_host* host() const { return &table_.host; }
   /// The last line that was logged as an error, or else the last line; empty when there was none.
   std::string last_words() const;

@@ -5,7 +5,7 @@
 
 #include "command_line.h"
 #include "core/output_file.h"
-#include "plugin/plugin_library.h"
+#include "isolate/isolated_rasterizer.h"
 #include "program_files.h"
 #include "rasterizer_options.h"
 #include "session.h"
@@ -30,17 +30,20 @@ std::string wishes(std::uint32_t wants) {
   return text.empty() ? "polygons as the flat file has them" : text;
 }
 
+/// Loads it where it can do no harm: its own words about itself come from its own code.
 std::string describe(const FoundLibrary& found) {
-  const LoadableRasterizer what = loadable(found.file, {});
-  HostServices& services = *new HostServices(what.options, {});  // libraries keep pointers to it
-  PluginLibrary library = inspect_plugin_file(what.library);
-  if (library.failure == LoadFailure::none) library = open_plugin(what.library, services);
-  std::string text = fmt::format(
-      "{:<16}{}\n", found.name,
-      library.failure == LoadFailure::none ? library.summary : "cannot be used: " + library.message);
-  if (library.failure == LoadFailure::none) {
-    text += fmt::format("{:16}wants {}; interface {}.{}\n", "", wishes(library.table->wants),
-                        library.table->abi_version >> 16, library.table->abi_version & 0xFFFFu);
+  std::string text;
+  try {
+    const LoadableRasterizer what = loadable(found.file, {});
+    IsolationOptions isolation;
+    isolation.plugin_options = what.options;
+    const PluginDescription described = IsolatedRasterizer(what.library, isolation, {}).description();
+    text = fmt::format("{:<16}{}\n{:16}wants {}; interface {}.{}\n", found.name, described.summary, "",
+                       wishes(described.wants), described.abi_version >> 16, described.abi_version & 0xFFFFu);
+  } catch (const PluginFailure& failure) {
+    text = fmt::format("{:<16}cannot be used: {}\n", found.name, failure.finding().message);
+  } catch (const Error& error) {
+    text = fmt::format("{:<16}cannot be used: {}\n", found.name, error.what());
   }
   return text + fmt::format("{:16}{}\n", "", found.file.string());
 }

@@ -75,8 +75,8 @@ class Tape : public ScreenPolygonSink {
 class Contestant {
  public:
   Contestant(const std::string& name, std::map<std::string, std::string> options)
-      : services_(*new HostServices(std::move(options),  // libraries keep pointers to it
-                                    [this](farop_log_level, const std::string& line) { last_line_ = line; })),
+      : services_(HostServices::for_the_life_of_the_process(
+            std::move(options), [this](farop_log_level, const std::string& line) { last_line_ = line; })),
         library_(open_plugin(library_file("plugins") / (name + ".so"), services_)) {
     if (library_.failure != LoadFailure::none) {
       throw Error(ExitStatus::internal, fmt::format("the rasterizer '{}' {}", name, library_.message),

@@ -22,7 +22,7 @@ std::string plugin_path(const std::string& name) {
 
 IsolationOptions options_for_tests() {
   IsolationOptions options;
-  options.runner = FAROP_RUNNER;
+  options.runner = own_runner();
   options.limits.cpu_seconds = 10;
   options.limits.wall_seconds = 20;
   options.limits.memory_bytes = std::uint64_t{256} << 20;
@@ -90,6 +90,26 @@ Belongings belongings() {
     if (line.find("memfd:") != std::string::npos) all.memories.insert(line);
   }
   return all;
+}
+
+const std::string& own_runner() {
+  struct Copy {
+    Copy() {
+      std::string name = (std::filesystem::temp_directory_path() / "farop-runner-XXXXXX").string();
+      if (::mkdtemp(name.data()) == nullptr) std::abort();
+      folder = name;
+      std::filesystem::permissions(folder, std::filesystem::perms(0755));
+      path = folder + "/farop-runner";
+      std::filesystem::copy_file(FAROP_RUNNER, path);
+    }
+    ~Copy() {
+      std::error_code ec;
+      std::filesystem::remove_all(folder, ec);
+    }
+    std::string folder, path;
+  };
+  static const Copy copy;
+  return copy.path;
 }
 
 std::set<int> processes_running(const std::string& program) {

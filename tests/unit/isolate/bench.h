@@ -38,6 +38,10 @@ Belongings belongings();
 /// Processes of any parent that run the given program.
 std::set<int> processes_running(const std::string& program);
 
+/// The runner under test: a copy that belongs to this test program alone, so that its processes can be told
+/// from those of tests that run at the same time.
+const std::string& own_runner();
+
 /// Draws a frame of 16 * scale pixels (or several) with the sinner; the finding that ended it, or the first
 /// that did not, or one with the verdict "pass".
 PluginFinding sin_finding(const std::string& sin, IsolationOptions options = options_for_tests(),

@@ -255,7 +255,7 @@ void expect_verdict(const Row& row, const IsolationOptions& options) {
   }
   canaries.expect_untouched();
   EXPECT_TRUE(marked_processes().empty()) << row.name;
-  EXPECT_TRUE(processes_running(FAROP_RUNNER).empty()) << row.name;
+  EXPECT_TRUE(processes_running(own_runner()).empty()) << row.name;
   const Belongings after = belongings();
   EXPECT_EQ(before.descriptors, after.descriptors) << row.name;
   EXPECT_EQ(before.children, after.children) << row.name;

@@ -111,7 +111,7 @@ TEST(IsolatedRasterizer, LeavesNothingBehind) {
     EXPECT_EQ(before.descriptors, after.descriptors) << sin;
     EXPECT_EQ(before.children, after.children) << sin;
     EXPECT_EQ(before.memories, after.memories) << sin;
-    EXPECT_TRUE(processes_running(FAROP_RUNNER).empty()) << sin;
+    EXPECT_TRUE(processes_running(own_runner()).empty()) << sin;
   }
 }
 
@@ -120,7 +120,7 @@ TEST(IsolatedRasterizer, LeavesNothingBehindWithoutWalls) {
   options.isolation = Isolation::off;
   // A grandchild in a session of its own, that nobody waits for.
   EXPECT_EQ(sin_finding("leave-child", options).verdict, "pass");
-  EXPECT_TRUE(processes_running(FAROP_RUNNER).empty());
+  EXPECT_TRUE(processes_running(own_runner()).empty());
 }
 
 TEST(IsolatedRasterizer, GoesOnAfterFailures) {
@@ -160,14 +160,14 @@ TEST(IsolatedRasterizer, NeitherRunnerNorWardenOutlivesAJudgeThatIsKilledAtAnyMo
     ASSERT_EQ(::read(ready[0], &byte, 1), 1);
     ::close(ready[0]);
     std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
-    seen += processes_running(FAROP_RUNNER).size();
+    seen += processes_running(own_runner()).size();
     ::kill(judge, SIGKILL);
     ::waitpid(judge, nullptr, 0);
     // A while: it may have been about to start.
     int calm = 0;
     for (int i = 0; i < 200 && calm < 3; ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
-      calm = processes_running(FAROP_RUNNER).empty() ? calm + 1 : 0;
+      calm = processes_running(own_runner()).empty() ? calm + 1 : 0;
     }
     EXPECT_EQ(calm, 3) << milliseconds;
   }
