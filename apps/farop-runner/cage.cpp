@@ -111,7 +111,7 @@ farop_status call_polygon(void* self, const farop_polygon* polygon) {
 template <class Call>
 auto behind_barrier(const Call& call) {
   Barrier barrier;
-  const auto result = call();
+  auto result = call();
   barrier.pass();
   return result;
 }
@@ -145,7 +145,7 @@ class Cage {
     std::map<std::string, std::string> options;
     const char* const end = text + settings.options_bytes;
     const auto next = [&] {
-      const std::string word(text, ::strnlen(text, static_cast<std::size_t>(end - text)));
+      std::string word(text, ::strnlen(text, static_cast<std::size_t>(end - text)));
       text = std::min(text + word.size() + 1, end);
       return word;
     };
@@ -277,8 +277,9 @@ class Cage {
   void bury_frame() {
     KnownMemory& frame = g_known.frame;
     if (frame.first == 0) return;
-    ::mmap(pointer(frame.first), frame.end - frame.first, PROT_NONE,
-           MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_FIXED, -1, 0);
+    // Where it fails the old mapping stays, which is still outside of the new frame.
+    static_cast<void>(::mmap(pointer(frame.first), frame.end - frame.first, PROT_NONE,
+                             MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_FIXED, -1, 0));
     KnownMemory& place = g_known.old_frames[buried_++ % k_old_frames];
     release(place);
     place = frame;

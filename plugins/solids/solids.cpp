@@ -791,7 +791,7 @@ void fill(std::uint8_t* to, std::int32_t count, const std::uint8_t (&rgb)[3]) {
   std::uint8_t four[12];
   for (int i = 0; i < 12; ++i) four[i] = rgb[i % 3];
   for (; count >= 4; count -= 4, to += 12) std::memcpy(to, four, 12);
-  std::memcpy(to, four, static_cast<std::size_t>(3 * count));
+  std::memcpy(to, four, 3 * static_cast<std::size_t>(count));
 }
 
 void Solids::write_pixels() {

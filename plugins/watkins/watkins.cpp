@@ -83,7 +83,8 @@ struct Segment {
 
   double along(std::int32_t column) const { return (distance + (column - first)) * per_column; }
   Depth depth(std::int32_t column) const {
-    return static_cast<Depth>(left_z + z_change * along(column) + 0.5);  // not negative: rounds to nearest
+    const double shifted = left_z + z_change * along(column) + 0.5;
+    return static_cast<Depth>(shifted);  // not negative: rounds to nearest
   }
   bool covers(std::int32_t column) const { return first <= column && column < end; }
 };
