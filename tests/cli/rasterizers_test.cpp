@@ -156,6 +156,51 @@ TEST_F(PythonRasterizers, PrintToTheLog) {
   EXPECT_NE(verbose.err.find("hello\nred\n"), std::string::npos) << verbose.err;
 }
 
+TEST_F(Rasterizers, ThatCrashAreNamedWithThePolygonAndAFileThatRepeatsIt) {
+  make_scene();
+  const std::string crash = FAROP_HOSTILE "/crash.segv/01-null-dereference.so";
+  const std::string words = "null pointer: it wrote to address 0 in polygon 2 (";
+  expect_message("farop render gears.nff -o out.ppm --resolution 257x193 --rasterizer " + crash, 3, words);
+  const std::string repeat = read_file(folder_ / "01-null-dereference.crash.scr");
+  EXPECT_TRUE(repeat.starts_with("257 193 65536 256\n3 ")) << repeat.substr(0, 40);
+  const std::string all = read_file(folder_ / "gears.scr");
+  const std::size_t first = all.find("\n1\n");
+  const std::size_t polygons = repeat.size() - repeat.find("\n1\n") - 4;  // without the end mark
+  EXPECT_EQ(repeat.substr(repeat.find("\n1\n"), polygons), all.substr(first, polygons));
+  expect_message("farop raster 01-null-dereference.crash.scr -o out.ppm --rasterizer " + crash, 3, words);
+  // The same by a flat file in the first place; and the scene goes through with a rasterizer that works.
+  expect_message("rm *.crash.scr; farop raster gears.scr -o out.ppm --rasterizer " + crash, 3, words);
+  EXPECT_EQ(read_file(folder_ / "01-null-dereference.crash.scr"), repeat);
+  run("farop render gears.nff -o out.ppm --rasterizer trapezoid");
+}
+
+TEST_F(Rasterizers, ThatDoNotEndAreStopped) {
+  make_scene();
+  expect_message("farop raster gears.scr -o out.ppm --cpu 0.5 --rasterizer " FAROP_HOSTILE
+                 "/limit.time/06-infinite-loop.so",
+                 3, "stopped after 0.5 s of CPU time in polygon 2");
+  expect_message("farop raster gears.scr -o out.ppm --wall 0.5 --rasterizer " FAROP_HOSTILE
+                 "/limit.time/07a-sleep.so",
+                 3, "in polygon 2");
+}
+
+TEST_F(Rasterizers, RunBehindTheWallsThatTheStatisticsName) {
+  make_scene();
+  const Outcome strict = shell(
+      folder_, "farop raster gears.scr -o out.ppm --rasterizer trapezoid --isolation strict --stats s.json");
+  if (strict.status == 4) GTEST_SKIP() << "this machine lacks a wall: " << strict.err;
+  ASSERT_EQ(strict.status, 0) << strict.err;
+  const std::string stats = read_file(folder_ / "s.json");
+  for (const char* wall :
+       {"\"0 process\"", "\"A limits\"", "\"B namespaces\"", "\"C landlock\"", "\"D seccomp\""}) {
+    EXPECT_NE(stats.find(wall), std::string::npos) << stats;
+  }
+  run("farop raster gears.scr -o off.ppm --rasterizer trapezoid --isolation off --stats s.json && cmp "
+      "off.ppm out.ppm");
+  EXPECT_EQ(read_file(folder_ / "s.json").find("D seccomp"), std::string::npos);
+  run("farop raster gears.scr -o in.ppm --rasterizer trapezoid --in-process && cmp in.ppm out.ppm");
+}
+
 TEST_F(Rasterizers, SeeNothingOfABadFlatFile) {
   make_scene();
   run("head -n 100 gears.scr > cut.scr");

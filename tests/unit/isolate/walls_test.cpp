@@ -80,8 +80,14 @@ TEST(Walls, StrictRefusesWhenOneIsMissing) {
       ADD_FAILURE() << "not refused without " << without;
     } catch (const Error& error) {
       EXPECT_EQ(error.status(), ExitStatus::surroundings);
-      EXPECT_NE(std::string(error.what()).find(std::string("layer ") + without), std::string::npos)
-          << error.what();
+      // One that this machine has not may be named before the one that was left out.
+      bool named = false;
+      for (const char letter : {'A', 'B', 'C', 'D'}) {
+        const bool missing = without[0] == letter || !layer_stands(letter);
+        named = named || (missing && std::string(error.what()).find(std::string("layer ") + letter) !=
+                                         std::string::npos);
+      }
+      EXPECT_TRUE(named) << error.what();
     }
   }
 }
