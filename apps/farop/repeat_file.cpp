@@ -51,7 +51,7 @@ void explain_failure(Session& session, const PluginFailure& failure, const Chose
   console.end_progress();
   std::string trace;
   for (const std::string& line : finding.trace) trace += (trace.empty() ? "" : " < ") + line;
-  if (!trace.empty()) console.notice("it was in " + trace);
+  console.notice(finding.verdict + (trace.empty() ? "" : ", in " + trace));
   if (!finding.polygon) return;
   const std::string file = std::filesystem::path(rasterizer.file).stem().string() + ".crash.scr";
   try {

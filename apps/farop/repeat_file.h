@@ -17,10 +17,10 @@ class Session;
 /// Plays a frame's polygons once more into a sink.
 using Replay = std::function<void(ScreenPolygonSink& sink)>;
 
-/// Tells where a rasterizer failed, and writes NAME.crash.scr in the current folder: all polygons up to the
-/// one it failed on, as triangles where it wants those, and the command that draws them. Nothing is written
-/// when the failure belongs to no polygon. What cannot be written is said and does not hide the failure
-/// itself.
+/// Tells the verdict and where a rasterizer failed, and writes NAME.crash.scr in the current folder: all
+/// polygons up to the one it failed on, as triangles where it wants those, and the command that draws them.
+/// Nothing is written when the failure belongs to no polygon. What cannot be written is said and does not
+/// hide the failure itself.
 void explain_failure(Session& session, const PluginFailure& failure, const ChosenRasterizer& rasterizer,
                      const Replay& replay);
 

@@ -161,6 +161,8 @@ TEST_F(Rasterizers, ThatCrashAreNamedWithThePolygonAndAFileThatRepeatsIt) {
   const std::string crash = FAROP_HOSTILE "/crash.segv/01-null-dereference.so";
   const std::string words = "null pointer: it wrote to address 0 in polygon 2 (";
   expect_message("farop render gears.nff -o out.ppm --resolution 257x193 --rasterizer " + crash, 3, words);
+  expect_message("farop render gears.nff -o out.ppm --resolution 257x193 --rasterizer " + crash, 3,
+                 "note: crash.segv, in deed");
   const std::string repeat = read_file(folder_ / "01-null-dereference.crash.scr");
   EXPECT_TRUE(repeat.starts_with("257 193 65536 256\n3 ")) << repeat.substr(0, 40);
   const std::string all = read_file(folder_ / "gears.scr");
