@@ -210,7 +210,7 @@ std::unique_ptr<Drawer> make_drawer(Session& session, const ChosenRasterizer& ra
       internal.samples = options.samples;
       internal.background = options.background;
       internal.keep_depth = options.keep_depth;
-      internal.lights_eye = options.lights_eye;
+      internal.shading = options.shading;
       return std::make_unique<InternalDrawer>(std::move(internal));
     }
     case RasterizerKind::null:

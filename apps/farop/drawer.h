@@ -36,7 +36,7 @@ struct DrawerOptions {
   int samples = 1;
   Rgb background;
   bool keep_depth = false;
-  std::vector<PointLight> lights_eye;
+  ShadingFrame shading;
 };
 
 /// Throws Error(usage) for what the chosen rasterizer cannot do: before any input is read.

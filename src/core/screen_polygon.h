@@ -19,6 +19,7 @@
 namespace farop {
 
 struct Material;
+class Shader;
 
 /// XRES x YRES pixels, ZRES depths, CRES intensities per channel. Defaults: farop.md section 3.
 struct Resolution {
@@ -51,13 +52,15 @@ struct ScreenPolygonRecord {
   bool back_facing = false;  ///< faced away from the eye (two-sided drawing, or a clockwise flat-file record)
   std::uint32_t surface_id = 0;  ///< surfaces of the scene count from 1 in tree order; 0: from a flat file
   std::uint32_t object_id = 0;   ///< placed objects count from 1 in tree order; 0: from a flat file
+  /// What lights it instead of the material's reflection model; lives as long as the frame. nullptr: nothing.
+  const Shader* shader = nullptr;
 };
 
 /// ScreenPolygonBatch::vertex_ids of a corner that clipping made.
 constexpr std::uint32_t k_no_vertex_id = 0xFFFFFFFFu;
 
-/// Polygons in drawing order. `normals`, `eye_positions` and `vertex_ids` are empty unless the sink wants
-/// them (and there is a scene to take them from); then they run parallel to `vertices`.
+/// Polygons in drawing order. What follows `vertices` is empty unless the sink wants
+/// it (and there is a scene to take it from); then it runs parallel to `vertices`.
 struct ScreenPolygonBatch {
   std::vector<ScreenPolygonRecord> polygons;
   std::vector<ScreenVertex> vertices;
@@ -65,12 +68,15 @@ struct ScreenPolygonBatch {
   std::vector<V3f> eye_positions;  ///< eye space: x right, y up, z along the view direction; scene units
   /// Index of the corner's vertex in its surface: equal object, surface and vertex id = the same corner.
   std::vector<std::uint32_t> vertex_ids;
+  std::vector<V3f> textures;   ///< texture coordinates; 0 0 0 where the surface has none
+  std::vector<V3f> opacities;  ///< per channel, 1 = nothing behind is seen
 
   std::span<const ScreenVertex> corners(const ScreenPolygonRecord& polygon) const {
     return {vertices.data() + polygon.first_vertex, polygon.vertex_count};
   }
   void clear() {
     polygons.clear(), vertices.clear(), normals.clear(), eye_positions.clear(), vertex_ids.clear();
+    textures.clear(), opacities.clear();
   }
 };
 
@@ -93,6 +99,8 @@ struct PolygonWants {
   bool normals = false;        ///< ScreenPolygonBatch::normals
   bool eye_positions = false;  ///< ScreenPolygonBatch::eye_positions
   bool vertex_ids = false;     ///< ScreenPolygonBatch::vertex_ids
+  bool textures = false;       ///< ScreenPolygonBatch::textures
+  bool opacities = false;      ///< ScreenPolygonBatch::opacities
   bool max_vertices = false;   ///< ScreenFrame::max_vertices; takes a look at every polygon of the scene
 };
 

@@ -98,6 +98,7 @@ EyeVertex cut(const EyeVertex& inside, const EyeVertex& outside, Plane plane, co
   made.position = mix(inside.position, inside_weight, outside.position, outside_weight);
   made.normal = mix(inside.normal, inside_weight, outside.normal, outside_weight);
   if (made.normal == V3d(0)) made.normal = inside.normal;
+  made.texture = mix(inside.texture, inside_weight, outside.texture, outside_weight);
   move_onto(made.position, plane, frustum);
   // An edge inside another plane must not be taken out of it by rounding. Depth comes first in k_planes, as
   // the other limits depend on it.

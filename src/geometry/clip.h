@@ -25,6 +25,7 @@ struct EyeVertex {
   V3d position;                        ///< eye space, scene units; components up to 1e150 in size
   V3d normal;                          ///< eye space, unit length
   std::uint32_t source = k_clip_made;  ///< index of the stored corner it comes from, or k_clip_made
+  V3d texture{0, 0, 0};                ///< texture coordinates
 };
 
 /// The visible volume: hither <= z <= yon, |x| <= z tan_x, |y| <= z tan_y.
@@ -46,7 +47,8 @@ struct ClipScratch {
 };
 
 /// Cuts off what lies outside: against hither, yon, left, right, bottom, top, in this order. A vertex on a
-/// plane is inside. Normals of new vertices are interpolated linearly along the edge, then normalised.
+/// plane is inside. Attributes of new vertices are interpolated linearly along the edge, normals then
+/// normalised.
 ClipResult clip_to_frustum(std::vector<EyeVertex>& polygon, const Frustum& frustum, ClipScratch& scratch);
 
 }  // namespace farop

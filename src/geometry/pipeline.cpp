@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "core/error.h"
 #include "geometry/clip.h"
 #include "geometry/triangulate.h"
 #include "scene/plane.h"
 #include "scene/traverse.h"
+#include "shading/shade.h"
 
 namespace farop {
 namespace {
@@ -22,15 +24,39 @@ constexpr std::size_t k_batch_corners = 4096;
 /// Polygons between two calls of the progress function.
 constexpr std::uint64_t k_progress_step = 1u << 14;
 
-double farthest_depth(const Scene& scene, const M44d& world_to_eye) {
-  double farthest = 0;
+struct DepthRange {
+  double nearest = std::numeric_limits<double>::infinity();
+  double farthest = -std::numeric_limits<double>::infinity();
+};
+
+/// Of all vertices, along the view direction.
+DepthRange vertex_depths(const Scene& scene, const M44d& world_to_eye) {
+  DepthRange range;
   for_each_surface(scene, [&](const SurfacePlacement& placement) {
     const M44d m = placement.local_to_world * world_to_eye;
     for (const V3d& p : placement.surface.positions) {
-      farthest = std::max(farthest, p.x * m[0][2] + p.y * m[1][2] + p.z * m[2][2] + m[3][2]);
+      const double depth = p.x * m[0][2] + p.y * m[1][2] + p.z * m[2][2] + m[3][2];
+      range.nearest = std::min(range.nearest, depth);
+      range.farthest = std::max(range.farthest, depth);
     }
   });
-  return farthest;
+  return range;
+}
+
+/// The light as it is seen from the eye. Rigid: directions stay unit vectors.
+LightSource to_eye_space(const Light& light, const M44d& to_eye, double intensity) {
+  LightSource source;
+  source.kind = light.kind;
+  source.color = light.color.value_or(Rgb{1, 1, 1} * intensity);
+  if (light.kind == LightKind::directional) {
+    to_eye.multDirMatrix(light.position, source.position);
+    return source;
+  }
+  source.position = light.position * to_eye;
+  if (light.kind == LightKind::point) return source;
+  to_eye.multDirMatrix((light.target - light.position).normalized(), source.axis);
+  source.cos_half_angle = std::cos(light.opening_degrees * (std::numbers::pi / 360));
+  return source;
 }
 
 /// No polygon has more corners on the screen. A plane leaves a convex polygon one corner more at most; of a
@@ -55,6 +81,7 @@ struct PlacedSurface {
         object_id(placement.object_id),
         local_to_eye(placement.local_to_world * world_to_eye) {
     const M44d& local_to_world = placement.local_to_world;
+    if (surface.normal_rule == NormalRule::sipp) vertex_normal_to_eye = local_to_eye;
     if (local_to_world == M44d()) {
       eye_local = eye_world;
       normal_to_eye = world_to_eye;  // orthonormal: its own inverse transpose
@@ -63,18 +90,20 @@ struct PlacedSurface {
       eye_local = eye_world * local_to_world.inverse();
       normal_to_eye = local_to_eye.inverse().transposed();
     }
+    if (surface.normal_rule == NormalRule::nff) vertex_normal_to_eye = normal_to_eye;
   }
 
-  V3d to_eye_direction(const V3d& local) const {
+  static V3d direction(const V3d& local, const M44d& matrix) {
     V3d out;
-    normal_to_eye.multDirMatrix(local, out);
+    matrix.multDirMatrix(local, out);
     return out.normalized();
   }
 
   const Surface& surface;
   std::uint32_t surface_id, object_id;
   M44d local_to_eye;
-  M44d normal_to_eye;
+  M44d normal_to_eye;         ///< of planes
+  M44d vertex_normal_to_eye;  ///< of vertex normals, by the surface's rule
   V3d eye_local;
   bool flattened = false;  ///< the matrix leaves no volume: no side to see
 };
@@ -87,7 +116,7 @@ class Stage {
         options_(options),
         sink_(sink),
         clocks_(clocks),
-        mapping_(setup.viewport, setup.tangents, setup.hither, setup.yon),
+        mapping_(setup.viewport, setup.tangents, setup.nearest_depth, setup.farthest_depth),
         frustum_{setup.tangents.x, setup.tangents.y, setup.hither, setup.yon},
         wants_(sink.wants()),
         triangles_only_(options.triangles || wants_.triangles) {}
@@ -127,11 +156,10 @@ class Stage {
       ++counts.back_facing;
       return;
     }
-    const V3d normal_eye = placed.to_eye_direction(*normal);
+    const V3d normal_eye = PlacedSurface::direction(*normal, placed.normal_to_eye);
     load_eye_vertices(placed, polygon, normal_eye, faces_away);
-    Rgb flat_color;
-    if (options_.flat)
-      flat_color = light(surface.material, ring_.front());  // before clipping may take it away
+    Shaded flat;
+    if (options_.flat) flat = light(surface, ring_.front());  // before clipping may take it away
     const ClipResult clipped = clip_to_frustum(ring_, frustum_, clip_scratch_);
     if (clipped == ClipResult::outside) {
       ++counts.totally_clipped;
@@ -141,7 +169,7 @@ class Stage {
     if (clipped == ClipResult::partly) ++counts.partly_clipped;
     counts.vertices += ring_.size();
 
-    const std::size_t first = append_vertices(surface.material, polygon, flat_color);
+    const std::size_t first = append_vertices(surface, polygon, flat);
     if (triangles_only_) {
       append_triangles(first, normal_eye, placed, faces_away);
     } else {
@@ -161,27 +189,37 @@ class Stage {
       const std::uint32_t v = polygon.corners[corner];
       V3d normal = normal_eye;
       if (own != nullptr) {
-        normal = placed.to_eye_direction((*own)[v]);
+        normal = PlacedSurface::direction((*own)[v], placed.vertex_normal_to_eye);
         if (normal == V3d(0, 0, 0)) normal = normal_eye;
         // A given NFF normal may point to the back of its polygon (SPD nurbtst): it lights the front all the
         // same.
-        if (polygon.has_given_normals && normal.dot(normal_eye) < 0) normal = -normal;
+        if (polygon.has_given_normals && surface.normal_rule == NormalRule::nff &&
+            normal.dot(normal_eye) < 0) {
+          normal = -normal;
+        }
       }
       if (faces_away) normal = -normal;
       ring_.push_back({surface.positions[v] * placed.local_to_eye, normal, corner});
+      if (!surface.textures.empty()) ring_.back().texture = V3d(surface.textures[v]);
     }
   }
 
-  Rgb light(const Material& material, const EyeVertex& vertex) const {
-    return reflect(material, setup_.lights_eye, vertex.position, vertex.normal, V3d(0, 0, 0));
+  Shaded light(const Surface& surface, const EyeVertex& vertex) const {
+    return shade(surface.shader.get(), surface.material, vertex.position, vertex.normal, vertex.texture,
+                 setup_.shading);
   }
 
   // Lights and projects the clipped ring into the batch; returns the index of its first vertex.
-  std::size_t append_vertices(const Material& material, const PolygonView& polygon, const Rgb& flat_color) {
+  std::size_t append_vertices(const Surface& surface, const PolygonView& polygon, const Shaded& flat) {
     const std::size_t first = batch_.vertices.size();
     for (const EyeVertex& vertex : ring_) {
-      const Rgb color = options_.flat ? flat_color : light(material, vertex);
-      batch_.vertices.push_back(mapping_.to_device(vertex.position, color));
+      const Shaded shaded = options_.flat ? flat : light(surface, vertex);
+      batch_.vertices.push_back(mapping_.to_device(vertex.position, shaded.color));
+      if (wants_.opacities) {
+        const Rgb o = clamp01(shaded.opacity);
+        batch_.opacities.emplace_back(V3d(o.r, o.g, o.b));
+      }
+      if (wants_.textures) batch_.textures.emplace_back(vertex.texture);
       if (wants_.normals) batch_.normals.emplace_back(vertex.normal);
       if (wants_.eye_positions) batch_.eye_positions.emplace_back(vertex.position);
       if (wants_.vertex_ids) {
@@ -194,7 +232,8 @@ class Stage {
 
   void append_record(std::size_t first, std::size_t count, const PlacedSurface& placed, bool faces_away) {
     batch_.polygons.push_back({static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count),
-                               &placed.surface.material, faces_away, placed.surface_id, placed.object_id});
+                               &placed.surface.material, faces_away, placed.surface_id, placed.object_id,
+                               placed.surface.shader.get()});
   }
 
   // Triangles take their own copies of the polygon's vertices, behind them in the batch; no attribute
@@ -221,6 +260,8 @@ class Stage {
         if (wants_.vertex_ids) {
           batch_.vertex_ids.push_back(std::uint32_t{batch_.vertex_ids[first + corner]});
         }
+        if (wants_.textures) batch_.textures.push_back(V3f(batch_.textures[first + corner]));
+        if (wants_.opacities) batch_.opacities.push_back(V3f(batch_.opacities[first + corner]));
       }
       append_record(start, 3, placed, faces_away);
     }
@@ -253,21 +294,29 @@ GeometrySetup prepare_geometry(const Scene& scene, const Camera& camera, const V
   setup.tangents = view_tangents(camera, viewport);
   setup.hither = camera.near_distance();
   const M44d to_eye = world_to_eye(camera);
+  DepthRange depths;
+  if (!camera.yon || camera.fit_depth) depths = vertex_depths(scene, to_eye);
   if (camera.yon) {
     setup.yon = *camera.yon;
   } else {
-    setup.yon = farthest_depth(scene, to_eye) * 1.000001;
+    setup.yon = std::max(0.0, depths.farthest) * 1.000001;
     if (!(setup.yon > setup.hither)) setup.yon = 2 * setup.hither;
   }
   if (!(setup.yon > setup.hither)) {
     throw Error(ExitStatus::input, fmt::format("yon {} is not beyond hither {}", setup.yon, setup.hither),
                 "give a larger --yon, a smaller --hither, or --yon auto");
   }
-  for (const Light& light : scene.lights) {
-    const Rgb white = Rgb{1, 1, 1} * options.light_intensity;
-    setup.lights_eye.push_back({light.position * to_eye, light.color.value_or(white)});
+  setup.nearest_depth = setup.hither, setup.farthest_depth = setup.yon;
+  if (camera.fit_depth) {
+    const double nearest = std::max(setup.hither, depths.nearest * 0.999999);
+    const double farthest = std::min(setup.yon, depths.farthest * 1.000001);
+    if (nearest < farthest) setup.nearest_depth = nearest, setup.farthest_depth = farthest;
   }
-  if (scene.lights.empty() && options.light_at_eye) setup.lights_eye.push_back({V3d(0, 0, 0), {1, 1, 1}});
+  for (const Light& light : scene.lights) {
+    if (light.active) setup.shading.lights.push_back(to_eye_space(light, to_eye, options.light_intensity));
+  }
+  if (scene.lights.empty() && options.light_at_eye) setup.shading.lights.push_back({});
+  setup.shading.eye_to_world = to_eye.inverse();
   return setup;
 }
 

@@ -14,7 +14,7 @@
 #include "core/statistics.h"
 #include "geometry/viewport.h"
 #include "scene/scene.h"
-#include "shading/reflection.h"
+#include "shading/light.h"
 
 namespace farop {
 
@@ -34,7 +34,9 @@ struct GeometrySetup {
   ViewTangents tangents;
   double hither = 0;  ///< of clipping and depth mapping, > 0
   double yon = 0;     ///< > hither, may be +infinity
-  std::vector<PointLight> lights_eye;
+  double nearest_depth = 0,
+         farthest_depth = 0;  ///< of integer depths: hither and yon unless the camera fits them
+  ShadingFrame shading;
 };
 
 /// Completes a frame: near plane, yon (`auto`: farthest vertex times 1.000001, twice hither where that is not

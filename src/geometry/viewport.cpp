@@ -21,9 +21,9 @@ ViewTangents view_tangents(const Camera& camera, const Viewport& viewport) {
   return horizontal ? ViewTangents{t, t / ratio} : ViewTangents{t * ratio, t};
 }
 
-DeviceMapping::DeviceMapping(const Viewport& viewport, const ViewTangents& tangents, double hither,
-                             double yon)
-    : hither_(hither), y_down_(viewport.y_down) {
+DeviceMapping::DeviceMapping(const Viewport& viewport, const ViewTangents& tangents, double nearest,
+                             double farthest)
+    : nearest_(nearest), y_down_(viewport.y_down) {
   const double unit = std::ldexp(1.0, viewport.subpixel_bits);
   const auto map_axis = [&](int pixels, double tangent, double& scale, double& offset, double& low,
                             double& high) {
@@ -38,7 +38,7 @@ DeviceMapping::DeviceMapping(const Viewport& viewport, const ViewTangents& tange
   };
   map_axis(viewport.resolution.x, tangents.x, scale_x_, offset_x_, low_x_, high_x_);
   map_axis(viewport.resolution.y, tangents.y, scale_y_, offset_y_, low_y_, high_y_);
-  depth_scale_ = std::isinf(yon) ? 1 : yon / (yon - hither);
+  depth_scale_ = std::isinf(farthest) ? 1 : farthest / (farthest - nearest);
   depth_max_ = static_cast<double>(viewport.resolution.z - 1);
   color_max_ = viewport.resolution.color - 1;
 }
@@ -56,7 +56,7 @@ ScreenVertex DeviceMapping::to_device(const V3d& position, const Rgb& color) con
   v.x = place(offset_x_ + scale_x_ * (position.x * inverse), low_x_, high_x_);
   v.y = place(offset_y_ + scale_y_ * (position.y * inverse), low_y_, high_y_);
   if (y_down_) v.y = static_cast<std::int32_t>(low_y_ + high_y_) - v.y;
-  v.z = place(depth_scale_ * (1 - hither_ * inverse) * depth_max_, 0, depth_max_);
+  v.z = place(depth_scale_ * (1 - nearest_ * inverse) * depth_max_, 0, depth_max_);
   v.r = shade(color.r);
   v.g = shade(color.g);
   v.b = shade(color.b);

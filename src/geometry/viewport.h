@@ -37,12 +37,14 @@ struct ViewTangents {
 ViewTangents view_tangents(const Camera& camera, const Viewport& viewport);
 
 /// Perspective and device mapping of points inside the frustum.
-/// Depth is z_s = f (1 - d/z) / (f - d): 0 at hither d, 1 at yon f, linear in screen space (A. Watt, "3D
-/// Computer Graphics"; Blinn, "Hyperbolic Interpolation", IEEE CG&A 12(4), 1992).
+/// Depth is z_s = f (1 - d/z) / (f - d): 0 at d (hither, or the nearest vertex), 1 at f (yon, or the
+/// farthest), linear in screen space (A. Watt, "3D Computer Graphics"; Blinn, "Hyperbolic Interpolation",
+/// IEEE CG&A 12(4), 1992).
 class DeviceMapping {
  public:
-  /// 0 < hither < yon; yon may be +infinity.
-  DeviceMapping(const Viewport& viewport, const ViewTangents& tangents, double hither, double yon);
+  /// Depths `nearest` .. `farthest` are spread over 0 .. ZRES-1. 0 < nearest < farthest; the latter may be
+  /// +infinity.
+  DeviceMapping(const Viewport& viewport, const ViewTangents& tangents, double nearest, double farthest);
 
   /// Rounded by floor(v + 0.5), then clamped to the frame. Asserts nothing: a point outside is clamped like
   /// rounding noise. `color` 0..1 per channel becomes 0..CRES-1. position.z > 0.
@@ -51,7 +53,7 @@ class DeviceMapping {
  private:
   double scale_x_, offset_x_, scale_y_, offset_y_;  ///< device = offset + scale * x_e / z_e, before rounding
   double low_x_, high_x_, low_y_, high_y_;
-  double depth_scale_, hither_;
+  double depth_scale_, nearest_;
   double depth_max_, color_max_;
   bool y_down_;
 };

@@ -16,20 +16,20 @@
 
 namespace farop {
 
-class MaterialTable;
+/// How fragments of a pixel, taken from near to far, hide what is behind them. over: result = o I + (1 - o)
+/// behind. additive: opacities add up until they reach 1 (SIPP 3.1): two layers of 0.5 hide the rest.
+enum class Transparency : std::uint8_t { over, additive };
 
-/// Memory: 4 bytes a sample once there is a fragment, and 24 bytes a fragment.
+/// Memory: 4 bytes a sample once there is a fragment, and 32 bytes a fragment.
 class FragmentStore {
  public:
-  /// Adds a fragment in drawing order. `color`: 0..255 per channel, not rounded. `samples`: size of the
-  /// frame. Throws std::length_error beyond 2^32 - 2 fragments (96 GiB).
-  void add(std::size_t sample, std::size_t samples, std::int32_t depth, const V3f& color,
-           std::uint32_t material);
+  /// Adds a fragment in drawing order. `color`: 0..255 per channel, not rounded. `opacity`: 0..1. `samples`:
+  /// size of the frame. Throws std::length_error beyond 2^32 - 2 fragments (96 GiB).
+  void add(std::size_t sample, std::size_t samples, std::int32_t depth, const V3f& color, const V3f& opacity);
 
-  /// Colour of a sample, near to far: result = o I + (1 - o) behind, o the material's opacity per channel.
-  /// Fragments at or behind `opaque_depth` are hidden; of equal depths the first drawn is in front. `behind`:
-  /// colour there.
-  Rgb composite(std::size_t sample, std::int32_t opaque_depth, Rgb behind, const MaterialTable& materials);
+  /// Colour of a sample. Fragments at or behind `opaque_depth` are hidden; of equal depths the first drawn is
+  /// in front. `behind`: colour there.
+  Rgb composite(std::size_t sample, std::int32_t opaque_depth, Rgb behind, Transparency rule);
 
   bool any_at(std::size_t sample) const { return !newest_.empty() && newest_[sample] != k_none; }
 
@@ -38,8 +38,8 @@ class FragmentStore {
 
   struct Fragment {
     V3f color{0, 0, 0};
+    V3f opacity{1, 1, 1};
     std::int32_t depth = 0;
-    std::uint32_t material = 0;
     std::uint32_t older = k_none;  ///< the fragment drawn before at the same sample
   };
 

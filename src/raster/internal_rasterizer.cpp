@@ -77,7 +77,7 @@ std::int64_t whole_pixel(std::int32_t v, const ScreenFrame& frame, int size) {
 /// Samples, and what draws into them.
 struct InternalRasterizer::FilledFrame {
   FilledFrame(const ScreenFrame& frame, const InternalRasterizerOptions& options, RasterCounts& counts)
-      : buffer(make_buffer(frame, options)), filler(frame, buffer, options.lights_eye, counts) {}
+      : buffer(make_buffer(frame, options)), filler(frame, buffer, options.shading, counts) {}
 
   static SampleBuffer make_buffer(const ScreenFrame& frame, const InternalRasterizerOptions& options) {
     SampleBuffer b;
@@ -157,7 +157,10 @@ void InternalRasterizer::draw_lines(const ScreenPolygonBatch& batch) {
 void InternalRasterizer::draw_filled(const ScreenPolygonBatch& batch) {
   const bool phong = options_.mode == DrawMode::phong;
   for (const ScreenPolygonRecord& record : batch.polygons) {
-    FillPolygon polygon{batch.corners(record), {}, {}, record.material};
+    FillPolygon polygon{batch.corners(record), {}, {}, {}, {}, {record.material, record.shader}};
+    const auto corners_of = [&](const std::vector<V3f>& attribute) {
+      return std::span(attribute).subspan(record.first_vertex, record.vertex_count);
+    };
     if (options_.mode == DrawMode::flat) {
       flat_corners_.assign(polygon.corners.begin(), polygon.corners.end());
       for (ScreenVertex& v : flat_corners_) {
@@ -166,9 +169,11 @@ void InternalRasterizer::draw_filled(const ScreenPolygonBatch& batch) {
       polygon.corners = flat_corners_;
     }
     if (phong) {
-      polygon.normals = {batch.normals.data() + record.first_vertex, record.vertex_count};
-      polygon.eye_positions = {batch.eye_positions.data() + record.first_vertex, record.vertex_count};
+      polygon.normals = corners_of(batch.normals);
+      polygon.eye_positions = corners_of(batch.eye_positions);
+      if (!batch.textures.empty()) polygon.textures = corners_of(batch.textures);
     }
+    if (!batch.opacities.empty()) polygon.opacities = corners_of(batch.opacities);
     filled_->filler.fill(polygon);
   }
 }
@@ -178,7 +183,9 @@ void InternalRasterizer::end_frame() {
   in_frame_ = false;
   if (!filled_) return;
   with_memory(frame_, [&] {
-    picture_ = resolve(filled_->buffer, options_.samples, options_.keep_depth, options_.lights_eye, counts_);
+    picture_ = resolve(filled_->buffer, options_.samples, options_.keep_depth,
+                       options_.additive_transparency ? Transparency::additive : Transparency::over,
+                       options_.shading, counts_);
   });
   filled_.reset();
 }

@@ -17,25 +17,24 @@
 #include <vector>
 
 #include "core/color.h"
+#include "core/draw_mode.h"
 #include "core/framebuffer.h"
 #include "core/screen_polygon.h"
 #include "raster/raster_counts.h"
-#include "shading/reflection.h"
+#include "shading/light.h"
 
 namespace farop {
-
-/// line: every edge, hidden ones too. flat: the first corner's colour for the whole polygon (the geometry
-/// stage gives all corners one colour; a flat file need not). gouraud interpolates the corners' colours.
-/// phong interpolates normals and lights every visible fragment.
-enum class DrawMode { line, flat, gouraud, phong };
 
 struct InternalRasterizerOptions {
   DrawMode mode = DrawMode::gouraud;
   int samples =
       1;  ///< degree A of super-sampling, 1..k_max_samples: A x A samples a pixel; line mode ignores it
-  Rgb background;                      ///< limited to 0..1
-  bool keep_depth = false;             ///< fill Framebuffer::depth
-  std::vector<PointLight> lights_eye;  ///< phong: eye space, the eye at the origin
+  Rgb background;           ///< limited to 0..1
+  bool keep_depth = false;  ///< fill Framebuffer::depth
+  /// SIPP's transparency instead of the usual one: opacities of a pixel's fragments add up, near to far,
+  /// until they reach 1.
+  bool additive_transparency = false;
+  ShadingFrame shading;  ///< phong: what fragments are lit with
 };
 
 /// Frames one after another: begin_frame, polygons any number of times, end_frame, take.
@@ -52,7 +51,8 @@ class InternalRasterizer : public ScreenPolygonSink {
 
   PolygonWants wants() const override {
     PolygonWants wants;
-    wants.normals = wants.eye_positions = options_.mode == DrawMode::phong;
+    wants.normals = wants.eye_positions = wants.textures = options_.mode == DrawMode::phong;
+    wants.opacities = options_.mode == DrawMode::gouraud || options_.mode == DrawMode::flat;
     return wants;
   }
   void begin_frame(const ScreenFrame& frame) override;

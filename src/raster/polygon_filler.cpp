@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "shading/shade.h"
+
 namespace farop {
 namespace {
 
@@ -21,31 +23,49 @@ double to_8_bits(std::uint16_t component, int resolution) {
   return std::min(round_half_up(255.0 * component / (resolution - 1)), 255.0);
 }
 
-}  // namespace
-
-V3f lit_color(const Material& material, std::span<const PointLight> lights_eye, const V3d& position,
-              const V3d& normal) {
-  const Rgb c = reflect(material, lights_eye, position, normal.normalized(), V3d(0, 0, 0));
-  return V3f(V3d(c.r, c.g, c.b) * 255.0);
+/// Whether nothing behind the polygon can be seen.
+bool is_opaque(const SurfaceLook& look) {
+  if (look.material == nullptr) return true;
+  return look.shader != nullptr ? look.shader->opaque() : look.material->opaque();
 }
 
-PolygonFiller::PolygonFiller(const ScreenFrame& frame, SampleBuffer& buffer,
-                             std::span<const PointLight> lights_eye, RasterCounts& counts)
+bool is_invisible(const SurfaceLook& look) {
+  if (look.material == nullptr) return false;
+  return look.shader != nullptr ? look.shader->invisible() : look.material->opacity() == Rgb{0, 0, 0};
+}
+
+V3d vector(const Rgb& c) {
+  return {c.r, c.g, c.b};
+}
+
+}  // namespace
+
+LitFragment lit_fragment(const SurfaceLook& look, const ShadingFrame& shading, const V3d& position,
+                         const V3d& normal, const V3d& texture) {
+  const Shaded lit = shade(look.shader, *look.material, position, normal.normalized(), texture, shading);
+  return {V3f(vector(clamp01(lit.color)) * 255.0), V3f(vector(clamp01(lit.opacity)))};
+}
+
+PolygonFiller::PolygonFiller(const ScreenFrame& frame, SampleBuffer& buffer, const ShadingFrame& shading,
+                             RasterCounts& counts)
     : buffer_(buffer),
-      lights_eye_(lights_eye),
+      shading_(shading),
       counts_(counts),
       edge_table_(buffer.width, buffer.height, frame.subpixel_bits),
       color_resolution_(frame.resolution.color),
       phong_(!buffer.points.empty()) {}
 
 void PolygonFiller::fill(const FillPolygon& polygon) {
-  const Material* material = polygon.material;
-  if (material != nullptr && material->opacity() == Rgb{0, 0, 0}) return;  // invisible
+  const SurfaceLook& look = polygon.look;
+  if (is_invisible(look)) return;
+  opaque_ = is_opaque(look);
+  textured_ = phong_ && look.shader != nullptr && look.shader->wants_texture();
+  if (textured_ && buffer_.textures.empty()) buffer_.textures.assign(buffer_.samples.size(), V3f(0, 0, 0));
   edge_table_.load(polygon.corners);
   load_attributes(polygon);
-  const std::uint32_t number = buffer_.materials.number(material);
+  const std::uint32_t number = buffer_.materials.number(look.material, look.shader);
   while (edge_table_.next_row()) {
-    for (const Span& span : edge_table_.spans()) fill_span(span, material, number);
+    for (const Span& span : edge_table_.spans()) fill_span(span, look, number);
   }
 }
 
@@ -58,6 +78,10 @@ void PolygonFiller::load_attributes(const FillPolygon& polygon) {
     a.color = {to_8_bits(v.r, color_resolution_), to_8_bits(v.g, color_resolution_),
                to_8_bits(v.b, color_resolution_)};
     if (phong_) a.normal = V3d(polygon.normals[i]), a.position = V3d(polygon.eye_positions[i]);
+    if (textured_) a.texture = V3d(polygon.textures[i]);
+    if (opaque_) continue;
+    a.opacity =
+        polygon.opacities.empty() ? vector(polygon.look.material->opacity()) : V3d(polygon.opacities[i]);
   }
 }
 
@@ -69,15 +93,19 @@ PolygonFiller::Attributes PolygonFiller::at(const EdgePoint& point) const {
   result.depth = mix(a.depth, b.depth);
   result.color = mix(a.color, b.color);
   if (phong_) result.normal = mix(a.normal, b.normal), result.position = mix(a.position, b.position);
+  if (textured_) result.texture = mix(a.texture, b.texture);
+  if (!opaque_) result.opacity = mix(a.opacity, b.opacity);
   return result;
 }
 
-void PolygonFiller::fill_span(const Span& span, const Material* material, std::uint32_t material_number) {
+void PolygonFiller::fill_span(const Span& span, const SurfaceLook& look, std::uint32_t look_number) {
   const Attributes left = at(span.left), right = at(span.right);
   const Ramp depth(left.depth + 0.5, right.depth + 0.5, span.width);  // not negative: truncation rounds
   const Ramp color(left.color, right.color, span.width);
   const Ramp normal(left.normal, right.normal, span.width);
   const Ramp position(left.position, right.position, span.width);
+  const Ramp texture(left.texture, right.texture, span.width);
+  const Ramp opacity(left.opacity, right.opacity, span.width);
   const std::size_t first = buffer_.index(span.first, edge_table_.row());
   const auto count = static_cast<std::size_t>(span.end - span.first);
   std::uint64_t visible = 0;
@@ -92,20 +120,21 @@ void PolygonFiller::fill_span(const Span& span, const Material* material, std::u
     }
   };
 
-  const bool lit_per_pixel = phong_ && material != nullptr;
-  if (material != nullptr && !material->opaque()) {
+  const bool lit_per_pixel = phong_ && look.material != nullptr;
+  if (!opaque_) {
     for_each_visible([&](std::size_t sample, double distance, std::int32_t z) {
-      const V3f c = lit_per_pixel
-                        ? lit_color(*material, lights_eye_, position.at(distance), normal.at(distance))
-                        : V3f(color.at(distance));
-      buffer_.fragments.add(sample, buffer_.samples.size(), z, c, material_number);
+      const LitFragment lit = lit_per_pixel ? lit_fragment(look, shading_, position.at(distance),
+                                                           normal.at(distance), texture.at(distance))
+                                            : LitFragment{V3f(color.at(distance)), V3f(opacity.at(distance))};
+      buffer_.fragments.add(sample, buffer_.samples.size(), z, lit.color, lit.opacity);
     });
     counts_.transparent_fragments += visible;
     if (lit_per_pixel) counts_.reflections += visible;
   } else if (phong_) {
     for_each_visible([&](std::size_t sample, double distance, std::int32_t z) {
       buffer_.samples[sample] = {V3f(lit_per_pixel ? normal.at(distance) : color.at(distance)), z};
-      buffer_.points[sample] = {V3f(position.at(distance)), material_number};
+      buffer_.points[sample] = {V3f(position.at(distance)), look_number};
+      if (textured_) buffer_.textures[sample] = V3f(texture.at(distance));
     });
   } else {
     for_each_visible([&](std::size_t sample, double distance, std::int32_t z) {

@@ -19,28 +19,33 @@
 #include "raster/edge_table.h"
 #include "raster/raster_counts.h"
 #include "raster/sample_buffer.h"
-#include "shading/reflection.h"
+#include "shading/light.h"
 
 namespace farop {
 
-/// Colour 0..255, not rounded, of a surface point in eye space (eye at the origin); `normal` of any length.
-V3f lit_color(const Material& material, std::span<const PointLight> lights_eye, const V3d& position,
-              const V3d& normal);
+/// Colour 0..255, not rounded, and opacity 0..1.
+struct LitFragment {
+  V3f color{0, 0, 0}, opacity{1, 1, 1};
+};
 
-/// One polygon and what runs parallel to its corners. `normals` and `eye_positions`: in Phong frames only,
-/// else empty.
+/// A surface point in eye space (eye at the origin); `normal` of any length.
+LitFragment lit_fragment(const SurfaceLook& look, const ShadingFrame& shading, const V3d& position,
+                         const V3d& normal, const V3d& texture);
+
+/// One polygon and what runs parallel to its corners. `normals`, `eye_positions` and `textures`: in Phong
+/// frames only, else empty. Without `opacities` the material's counts.
 struct FillPolygon {
   std::span<const ScreenVertex> corners;
-  std::span<const V3f> normals, eye_positions;
-  const Material* material = nullptr;
+  std::span<const V3f> normals, eye_positions, textures, opacities;
+  SurfaceLook look;
 };
 
 /// Strictly nearer wins, so of equal depths the first drawn stays. Transparent fragments are kept unless an
 /// opaque one is at least as near already.
 class PolygonFiller {
  public:
-  /// `buffer`, `counts` and `lights_eye` must outlive the filler. Phong: whether `buffer` has points.
-  PolygonFiller(const ScreenFrame& frame, SampleBuffer& buffer, std::span<const PointLight> lights_eye,
+  /// `buffer`, `counts` and `shading` must outlive the filler. Phong: whether `buffer` has points.
+  PolygonFiller(const ScreenFrame& frame, SampleBuffer& buffer, const ShadingFrame& shading,
                 RasterCounts& counts);
 
   void fill(const FillPolygon& polygon);
@@ -51,19 +56,22 @@ class PolygonFiller {
     double depth = 0;
     V3d color{0, 0, 0};                      ///< 0..255
     V3d normal{0, 0, 0}, position{0, 0, 0};  ///< Phong only; Imath leaves vectors unset by default
+    V3d texture{0, 0, 0};                    ///< Phong, where the shader wants it
+    V3d opacity{1, 1, 1};                    ///< where the polygon is not opaque
   };
 
   void load_attributes(const FillPolygon& polygon);
   Attributes at(const EdgePoint& point) const;
-  void fill_span(const Span& span, const Material* material, std::uint32_t material_number);
+  void fill_span(const Span& span, const SurfaceLook& look, std::uint32_t look_number);
 
   SampleBuffer& buffer_;
-  std::span<const PointLight> lights_eye_;
+  const ShadingFrame& shading_;
   RasterCounts& counts_;
   EdgeTable edge_table_;
   int color_resolution_;
   bool phong_;
-  std::vector<Attributes> attributes_;  ///< of the corners
+  bool opaque_ = true, textured_ = false;  ///< the polygon being filled
+  std::vector<Attributes> attributes_;     ///< of the corners
 };
 
 }  // namespace farop

@@ -10,18 +10,21 @@ namespace farop {
 namespace {
 
 /// Finished colour of a sample, 0..255 per channel, not rounded.
-Rgb sample_color(SampleBuffer& buffer, std::size_t index, std::span<const PointLight> lights_eye,
-                 RasterCounts& counts) {
+Rgb sample_color(SampleBuffer& buffer, std::size_t index, Transparency transparency,
+                 const ShadingFrame& shading, RasterCounts& counts) {
   const Sample& sample = buffer.samples[index];
   V3f color = sample.value;
   if (!buffer.points.empty() && buffer.points[index].material != 0) {
     const SurfacePoint& point = buffer.points[index];
-    color = lit_color(*buffer.materials[point.material], lights_eye, V3d(point.position), V3d(sample.value));
+    const V3d texture = buffer.textures.empty() ? V3d(0, 0, 0) : V3d(buffer.textures[index]);
+    color = lit_fragment(buffer.materials[point.material], shading, V3d(point.position), V3d(sample.value),
+                         texture)
+                .color;
     ++counts.reflections;
   }
   const Rgb opaque{color.x, color.y, color.z};
   if (!buffer.fragments.any_at(index)) return opaque;
-  return buffer.fragments.composite(index, sample.depth, opaque, buffer.materials);
+  return buffer.fragments.composite(index, sample.depth, opaque, transparency);
 }
 
 }  // namespace
@@ -32,8 +35,8 @@ std::uint8_t to_byte(double component) {
   return static_cast<std::uint8_t>(std::min(shifted, 255.0));
 }
 
-Framebuffer resolve(SampleBuffer& buffer, int degree, bool keep_depth, std::span<const PointLight> lights_eye,
-                    RasterCounts& counts) {
+Framebuffer resolve(SampleBuffer& buffer, int degree, bool keep_depth, Transparency transparency,
+                    const ShadingFrame& shading, RasterCounts& counts) {
   Framebuffer picture;
   picture.width = buffer.width / degree, picture.height = buffer.height / degree;
   const std::size_t pixels = picture.pixel(0, picture.height);
@@ -47,7 +50,7 @@ Framebuffer resolve(SampleBuffer& buffer, int degree, bool keep_depth, std::span
       for (int sy = y * degree; sy < (y + 1) * degree; ++sy) {
         for (int sx = x * degree; sx < (x + 1) * degree; ++sx) {
           const std::size_t index = buffer.index(sx, sy);
-          const Rgb c = sample_color(buffer, index, lights_eye, counts);
+          const Rgb c = sample_color(buffer, index, transparency, shading, counts);
           sum[0] += to_byte(c.r), sum[1] += to_byte(c.g), sum[2] += to_byte(c.b);
           nearest = std::min(nearest, buffer.samples[index].depth);
         }

@@ -3,12 +3,11 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 
 #include "core/framebuffer.h"
 #include "raster/raster_counts.h"
 #include "raster/sample_buffer.h"
-#include "shading/reflection.h"
+#include "shading/light.h"
 
 namespace farop {
 
@@ -17,8 +16,8 @@ std::uint8_t to_byte(double component);
 
 /// The picture of buffer.width / degree x buffer.height / degree pixels. Every sample is finished and rounded
 /// to 8 bits, then blocks of degree x degree are averaged and rounded to nearest; depth is that of the
-/// nearest sample. `lights_eye` lights the samples of Phong frames; counts.reflections grows.
-Framebuffer resolve(SampleBuffer& buffer, int degree, bool keep_depth, std::span<const PointLight> lights_eye,
-                    RasterCounts& counts);
+/// nearest sample. Samples of Phong frames are lit as `shading` says; counts.reflections grows.
+Framebuffer resolve(SampleBuffer& buffer, int degree, bool keep_depth, Transparency transparency,
+                    const ShadingFrame& shading, RasterCounts& counts);
 
 }  // namespace farop

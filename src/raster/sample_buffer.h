@@ -13,15 +13,23 @@
 namespace farop {
 
 struct Material;
+class Shader;
+
+/// What lights a surface.
+struct SurfaceLook {
+  const Material* material = nullptr;
+  const Shader* shader = nullptr;  ///< nullptr: the material's reflection model
+};
 
 /// Numbers for the materials of a frame, so that a sample needs 4 bytes for its own. 0 = nullptr.
 class MaterialTable {
  public:
-  std::uint32_t number(const Material* material);
-  const Material* operator[](std::uint32_t number) const { return materials_[number]; }
+  /// A material always comes with the same shader: both belong to one surface.
+  std::uint32_t number(const Material* material, const Shader* shader);
+  const SurfaceLook& operator[](std::uint32_t number) const { return looks_[number]; }
 
  private:
-  std::vector<const Material*> materials_{nullptr};
+  std::vector<SurfaceLook> looks_{{}};
   std::unordered_map<const Material*, std::uint32_t> numbers_{{nullptr, 0}};
   const Material* last_ = nullptr;  ///< polygons of one surface come in a row
   std::uint32_t last_number_ = 0;
@@ -48,6 +56,7 @@ struct SampleBuffer {
   std::int32_t empty_depth = 0;  ///< beyond every legal depth: nothing opaque here yet
   std::vector<Sample> samples;
   std::vector<SurfacePoint> points;  ///< in Phong frames, else empty
+  std::vector<V3f> textures;         ///< in Phong frames, once a shader wanted texture coordinates
   FragmentStore fragments;           ///< transparent ones
   MaterialTable materials;
 

@@ -57,8 +57,9 @@ void merge_into(Scene& scene, Scene next, DiagnosticSink& sink) {
   override_with(scene.view.from, next.view.from, "from", overridden);
   override_with(scene.view.at, next.view.at, "at", overridden);
   override_with(scene.view.up, next.view.up, "up", overridden);
+  if (next.view.angle) scene.view.fit = next.view.fit;  // which dimension an angle is of goes with it
   override_with(scene.view.angle, next.view.angle, "angle", overridden);
-  override_with(scene.view.fit, next.view.fit, "fit", overridden);
+  if (next.view.hither) scene.view.fit_depth = next.view.fit_depth;
   override_with(scene.view.hither, next.view.hither, "hither", overridden);
   override_with(scene.view.yon, next.view.yon, "yon", overridden);
   override_with(scene.view.resolution, next.view.resolution, "resolution", overridden);
@@ -71,6 +72,12 @@ void merge_into(Scene& scene, Scene next, DiagnosticSink& sink) {
     d.hint = "the last input counts; put the one whose view you want last, or give the view as options";
     sink.report(std::move(d));
   }
+  const auto take = [](auto& old, const auto& given) {
+    if (given) old = given;
+  };
+  take(scene.drawing.mode, next.drawing.mode);
+  take(scene.drawing.samples, next.drawing.samples);
+  take(scene.drawing.two_sided, next.drawing.two_sided);
   append(scene.root.children, next.root.children);
   append(scene.lights, next.lights);
   append(scene.inputs, next.inputs);
@@ -103,6 +110,7 @@ Camera complete_camera(const ViewParameters& view, DiagnosticSink& sink) {
   camera.fit = view.fit.value_or(Fit::vertical);
   camera.hither = view.hither.value_or(0);
   camera.yon = view.yon;
+  camera.fit_depth = view.fit_depth.value_or(false);
   if (up_is_parallel(camera)) {
     warn(sink, "'up' is zero or parallel to the view direction: the axis least parallel to it is used",
          "give --up X Y Z");

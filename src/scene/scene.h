@@ -23,26 +23,33 @@ struct Object {
   std::vector<std::shared_ptr<Object>> children;
 };
 
-/// A point light in world space. Without a colour it is white and its intensity is the program's choice.
+/// A light in world space. Without a colour it is white and its intensity is the program's choice.
 struct Light {
-  V3d position{0, 0, 0};
+  V3d position{0, 0, 0};  ///< of a directional one: unit vector from the scene TO the light
   std::optional<Rgb> color;
+  LightKind kind = LightKind::point;
+  V3d target{0, 0, 0};         ///< spots: a point in the middle of the cone
+  double opening_degrees = 0;  ///< spots: full angle of the cone, 0..360
+  bool casts_shadows = false;  ///< spots
+  int shadow_size = 256;       ///< side of its shadow map, texels
+  bool active = true;          ///< an inactive one gives no light
   friend bool operator==(const Light&, const Light&) = default;
 };
 
 /// Counts of one input, as read.
 struct InputSummary {
   std::string file;
-  std::string format;  ///< "nff"
+  std::string format;  ///< "nff", "sipp"
   std::uint64_t bytes = 0, surfaces = 0, polygons = 0, patches = 0, spheres = 0, cones = 0, lights = 0;
 };
 
-/// Root object + lights + view + background (in view). All of an NFF file is ONE object under the root; the
-/// root itself has no surfaces.
+/// Root object + lights + view + background (in view). All of an NFF file is ONE object under the root, and
+/// so is the world of a SIPP scene; the root itself has no surfaces.
 struct Scene {
   Object root;
   std::vector<Light> lights;
   ViewParameters view;
+  DrawingParameters drawing;
   std::vector<InputSummary> inputs;
   std::uint64_t spheres_skipped = 0, cones_skipped = 0;  ///< left out by `--detail 0`
 };

@@ -21,7 +21,16 @@ PolygonList PolygonRecorder::take() {
 std::size_t Surface::memory_bytes() const {
   return sizeof(Surface) +
          (positions.capacity() + normals.capacity() + averaged_normals.capacity()) * sizeof(V3d) +
-         polygons.memory_bytes() + curved.capacity() * sizeof(CurvedPrimitive);
+         textures.capacity() * sizeof(V3f) + polygons.memory_bytes() +
+         curved.capacity() * sizeof(CurvedPrimitive);
+}
+
+bool operator==(const Surface& a, const Surface& b) {
+  const bool same_shader = a.shader == b.shader || (a.shader != nullptr && b.shader != nullptr &&
+                                                    a.shader->describe() == b.shader->describe());
+  return same_shader && a.material == b.material && a.normal_rule == b.normal_rule &&
+         a.positions == b.positions && a.normals == b.normals && a.textures == b.textures &&
+         a.polygons == b.polygons && a.curved == b.curved;
 }
 
 }  // namespace farop

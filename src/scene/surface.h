@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "core/chunked_array.h"
 #include "core/math.h"
 #include "shading/material.h"
+#include "shading/shader.h"
 
 namespace farop {
 
@@ -124,9 +126,16 @@ struct CurvedPrimitive {
   friend bool operator==(const CurvedPrimitive&, const CurvedPrimitive&) = default;
 };
 
+/// How vertex normals reach eye space. nff: by the inverse transpose of the object's matrix; a given one that
+/// points to the back of its polygon is turned round. sipp: by the matrix itself, never turned round (so that
+/// scaling that is not uniform bends them, as it does in SIPP 3.1).
+enum class NormalRule : std::uint8_t { nff, sipp };
+
 /// Material + vertices + polygons (+ curved primitives until loading ends). Local coordinates, right-handed.
 struct Surface {
-  Material material;
+  Material material;                     ///< with a shader: its nearest approximation in NFF's terms
+  std::shared_ptr<const Shader> shader;  ///< nullptr: the reflection model of shading/reflection.h
+  NormalRule normal_rule = NormalRule::nff;
   std::vector<V3d> positions;
   /// Given normals as read (any length), parallel to positions; empty when no polygon has any. Entries of
   /// vertices whose polygons have none are 0 0 0 and mean nothing.
@@ -135,17 +144,16 @@ struct Surface {
   /// plane normal serves); empty unless average_normals() (scene/plane.h) made them. Not part of what was
   /// read.
   std::vector<V3d> averaged_normals;
+  /// Texture coordinates u v w, parallel to positions; empty where no shader could want them.
+  std::vector<V3f> textures;
   PolygonList polygons;
   std::vector<CurvedPrimitive> curved;
   /// Degenerate triangles that tessellating pointed cones made: expected, so nobody is warned of them.
   std::uint64_t cone_tip_triangles = 0;
 
   std::size_t memory_bytes() const;
-  /// Equality of what was read: material, vertices, polygons, curved primitives.
-  friend bool operator==(const Surface& a, const Surface& b) {
-    return a.material == b.material && a.positions == b.positions && a.normals == b.normals &&
-           a.polygons == b.polygons && a.curved == b.curved;
-  }
+  /// Equality of what was read: material, shader by its description, vertices, polygons, curved primitives.
+  friend bool operator==(const Surface& a, const Surface& b);
 };
 
 }  // namespace farop

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/color.h"
+#include "core/draw_mode.h"
 #include "core/math.h"
 
 namespace farop {
@@ -17,8 +18,9 @@ struct ViewParameters {
   std::optional<V3d> from, at, up;
   std::optional<double> angle;  ///< degrees, full angle, 0 < angle < 180
   std::optional<Fit> fit;
-  std::optional<double> hither;  ///< >= 0, along the view direction, scene units
-  std::optional<double> yon;     ///< > hither; +infinity is allowed
+  std::optional<double> hither;   ///< >= 0, along the view direction, scene units
+  std::optional<double> yon;      ///< > hither; +infinity is allowed
+  std::optional<bool> fit_depth;  ///< see Camera::fit_depth; goes with hither
   struct Size {
     int x = 0, y = 0;
     friend bool operator==(const Size&, const Size&) = default;
@@ -29,6 +31,14 @@ struct ViewParameters {
   friend bool operator==(const ViewParameters&, const ViewParameters&) = default;
 };
 
+/// How an input wants to be drawn; options override each other as with ViewParameters.
+struct DrawingParameters {
+  std::optional<DrawMode> mode;
+  std::optional<int> samples;     ///< degree of super-sampling, >= 1
+  std::optional<bool> two_sided;  ///< faces that point away from the eye are drawn too
+  friend bool operator==(const DrawingParameters&, const DrawingParameters&) = default;
+};
+
 /// A complete camera. World space is right-handed.
 struct Camera {
   V3d from{0, 0, 0}, at{0, 0, -1}, up{0, 1, 0};
@@ -36,6 +46,9 @@ struct Camera {
   Fit fit = Fit::vertical;
   double hither = 0;
   std::optional<double> yon;  ///< nothing: `auto`, just beyond the farthest vertex
+  /// Integer depths are spread over the range of the vertices wherever that is smaller than hither .. yon;
+  /// the planes only clip (SIPP's lie a factor of 10^4 apart).
+  bool fit_depth = false;
 
   /// max(hither, 1e-6 |at - from|): the near plane that clipping and depth mapping use, always positive.
   double near_distance() const;

@@ -11,19 +11,20 @@ Rgb Material::opacity() const {
   return {o, o, o};
 }
 
-Rgb reflect(const Material& material, std::span<const PointLight> lights, const V3d& point, const V3d& normal,
-            const V3d& eye) {
+Rgb reflect(const Material& material, std::span<const LightSource> lights, const V3d& point,
+            const V3d& normal, const V3d& eye) {
   Rgb sum = material.color * material.ka;
   const V3d to_eye = (eye - point).normalized();  // Imath leaves a zero vector zero
-  for (const PointLight& light : lights) {
-    const V3d to_light = (light.position - point).normalized();
+  for (const LightSource& light : lights) {
+    const auto [to_light, fraction] = illuminate(light, point);
     const double n_dot_l = normal.dot(to_light);
-    if (!(n_dot_l > 0)) continue;
-    sum += light.color * material.color * (material.kd * n_dot_l);
+    if (!(n_dot_l > 0) || !(fraction > 0)) continue;
+    const Rgb arriving = light.color * fraction;
+    sum += arriving * material.color * (material.kd * n_dot_l);
     if (material.ks != 0) {
       const V3d mirrored = 2 * n_dot_l * normal - to_light;
       const double r_dot_v = std::max(0.0, mirrored.dot(to_eye));
-      sum += light.color * (material.ks * std::pow(r_dot_v, material.shine));
+      sum += arriving * (material.ks * std::pow(r_dot_v, material.shine));
     }
   }
   return clamp01(sum);

@@ -6,27 +6,23 @@
 #include <span>
 
 #include "core/math.h"
+#include "shading/light.h"
 #include "shading/material.h"
 
 namespace farop {
 
-/// A point light in the space of the positions it is used with; `color` includes the intensity.
-struct PointLight {
-  V3d position{0, 0, 0};
-  Rgb color{1, 1, 1};
-};
-
 /// Intensity at a point:
 ///
-///   I = Ka C Ia + sum over lights of L (Kd C (N.L) + Ks (R.V)^n),  Ia = 1,  R = 2 (N.L) N - L,
+///   I = Ka C Ia + sum over lights of s L (Kd C (N.L) + Ks (R.V)^n),  Ia = 1,  R = 2 (N.L) N - L,
 ///
+/// s the fraction of the light that arrives (illuminate()), 1 for the point lights of NFF;
 /// clamped to [0,1] per channel once, at the end. One-sided: a light with N.L <= 0 adds nothing; R.V < 0
 /// counts as 0.
 ///
 /// point, eye, lights  in one space, any units
 /// normal              unit length, same space
 /// errors              none; a light or an eye at the point itself adds no directed term
-Rgb reflect(const Material& material, std::span<const PointLight> lights, const V3d& point, const V3d& normal,
-            const V3d& eye);
+Rgb reflect(const Material& material, std::span<const LightSource> lights, const V3d& point,
+            const V3d& normal, const V3d& eye);
 
 }  // namespace farop

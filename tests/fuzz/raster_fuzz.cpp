@@ -56,7 +56,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   options.mode = static_cast<farop::DrawMode>(input.take<std::uint8_t>() % 4);
   options.samples = 1 + input.take<std::uint8_t>() % 3;
   options.keep_depth = true;
-  options.lights_eye = {{farop::V3d(1, 2, 3), {1, 1, 1}}};
+  options.shading.lights = {{farop::V3d(1, 2, 3), {1, 1, 1}}};
   farop::ScreenFrame frame;
   frame.resolution.x = options.samples * (1 + input.take<std::uint8_t>() % 12);
   frame.resolution.y = options.samples * (1 + input.take<std::uint8_t>() % 12);

@@ -87,7 +87,7 @@ void run(Session& session, const RenderOptions& options) {
   // The geometry stage gives a polygon one colour already.
   if (flat && chosen.kind != RasterizerKind::internal) drawing.mode = DrawMode::gouraud;
   drawing.background = session.scene.view.background.value_or(Rgb{});
-  drawing.lights_eye = session.report.setup->lights_eye;
+  drawing.shading = session.report.setup->shading;
   const std::unique_ptr<Drawer> drawer = make_drawer(session, chosen, options.rasterizer, drawing);
   session.report.raster = {drawer->name(), options.drawing.mode, drawing.samples, {}, {}};
   std::optional<Framebuffer> picture;

@@ -20,8 +20,9 @@ class Canvas {
   void draw(const Corners& corners) {
     buffer.samples.assign(buffer.index(0, buffer.height), {V3f(0), buffer.empty_depth});
     RasterCounts counts;
-    PolygonFiller filler(frame_, buffer, {}, counts);
-    filler.fill({corners, {}, {}, nullptr});
+    const ShadingFrame dark;
+    PolygonFiller filler(frame_, buffer, dark, counts);
+    filler.fill({corners, {}, {}, {}, {}, {}});
   }
 
   SampleBuffer buffer;

@@ -3,6 +3,7 @@
 
 #include "raster/reference.h"
 #include "shading/material.h"
+#include "shading/reflection.h"
 #include "unit/raster/raster_test_support.h"
 
 namespace farop::test {
@@ -22,10 +23,10 @@ std::vector<V3f> square_positions() {
   return {V3f(-2, -2, 4), V3f(2, -2, 4), V3f(2, 2, 4), V3f(-2, 2, 4)};
 }
 
-InternalRasterizerOptions phong_with(std::vector<PointLight> lights) {
+InternalRasterizerOptions phong_with(std::vector<LightSource> lights) {
   InternalRasterizerOptions options;
   options.mode = DrawMode::phong;
-  options.lights_eye = std::move(lights);
+  options.shading.lights = std::move(lights);
   return options;
 }
 
@@ -41,7 +42,7 @@ TEST(Phong, AsksForNormalsAndPositions) {
 TEST(Phong, EqualsFlatShadingOnAPlaneWithoutHighlightAndALightFarAway) {
   Material matt = shiny();
   matt.ks = 0;
-  const std::vector<PointLight> lights = {{V3d(1e9, 2e9, -3e9), {1, 1, 1}}};
+  const std::vector<LightSource> lights = {{V3d(1e9, 2e9, -3e9), {1, 1, 1}}};
   const V3f normal(0, 0, -1);
   Drawing drawing;
   drawing.add(square(), &matt, std::vector<V3f>(4, normal), square_positions());
@@ -59,8 +60,8 @@ TEST(Phong, EqualsFlatShadingOnAPlaneWithoutHighlightAndALightFarAway) {
 
 TEST(Phong, LightsEveryPixelWithItsOwnNormalAndPosition) {
   const Material material = shiny();
-  const std::vector<PointLight> lights = {{V3d(0.5, 0.5, 0), {0.7, 0.7, 0.7}},
-                                          {V3d(-3, 2, 1), {0.3, 0.2, 0.6}}};
+  const std::vector<LightSource> lights = {{V3d(0.5, 0.5, 0), {0.7, 0.7, 0.7}},
+                                           {V3d(-3, 2, 1), {0.3, 0.2, 0.6}}};
   Random random(41);
   for (int i = 0; i < 60; ++i) {
     Corners corners = random_polygon(random, Shape::triangle, 0, k_size - 1, 0, k_size - 1);
@@ -135,7 +136,7 @@ TEST(Phong, TakesInterpolatedColoursWithoutAMaterialAlsoOverALitSurface) {
 TEST(Phong, CompositesLitTransparentFragments) {
   Material glass = shiny();
   glass.ks = 0, glass.transmittance = 0.75;
-  const std::vector<PointLight> lights = {{V3d(0, 0, -1e9), {1, 1, 1}}};
+  const std::vector<LightSource> lights = {{V3d(0, 0, -1e9), {1, 1, 1}}};
   Drawing drawing;
   drawing.add(rectangle(0, 0, k_size - 1, k_size - 1, 50, 200, 100, 0), nullptr,
               std::vector<V3f>(4, V3f(0, 0, -1)), square_positions());
