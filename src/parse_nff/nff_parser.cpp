@@ -32,6 +32,9 @@ constexpr std::string_view k_resolution_needs = "2 integers (width height)";
 constexpr const char* k_extra_hint =
     "remove the extra numbers, or restore the keyword of the line that they belong to";
 
+/// Numbers of a polygon that are read before its corners are stored.
+constexpr std::size_t k_numbers_at_once = 96;
+
 std::string count_text(std::uint64_t count) {
   return count == 0 ? "none" : fmt::format("{}", count);
 }
@@ -54,11 +57,17 @@ Parser::Parser(WordReader& reader, DiagnosticSink& sink, const NffOptions& optio
 Scene Parser::parse() {
   advance();
   refuse_foreign_formats();
+  const Keyword* entity = nullptr;  // mostly the one before
   while (!at_end_) {
-    const Keyword* entity = find_keyword(word_.text);
+    if (entity == nullptr || word_.text != entity->name) entity = find_keyword(word_.text);
     if (entity == nullptr) fail_unknown_word();
     Word keyword = word_;
     keyword.text = entity_ = entity->name;
+    const bool patch = entity->read == &Parser::patch;
+    if ((patch || entity->read == &Parser::polygon) &&
+        corners_at_once(keyword, patch ? k_patch_corners : k_polygon_corners)) {
+      continue;
+    }
     advance();
     (this->*entity->read)(keyword);
   }
@@ -123,6 +132,26 @@ bool Parser::take_number(double& value) {
   return false;
 }
 
+std::size_t Parser::take_numbers(std::span<double> numbers, bool& word_at_hand) {
+  std::size_t taken = 0;
+  while (taken < numbers.size()) {
+    if (!word_at_hand && !options_.plain) {
+      while (taken < numbers.size() && reader_.next_decimal(numbers[taken])) ++taken;
+      if (taken == numbers.size()) break;
+    }
+    if (!word_at_hand) advance();
+    word_at_hand = true;
+    if (options_.plain || at_end_ || word_.text.size() >= WordReader::k_max_word ||
+        parse_number(word_.text, numbers[taken]) != NumberSyntax::number) {
+      if (!take_number(numbers[taken])) break;  // or says what is wrong
+    } else {
+      word_at_hand = false;
+    }
+    ++taken;
+  }
+  return taken;
+}
+
 Parser::Run Parser::read_run(const Word& keyword) {
   Run run;
   run.last_line = keyword.line;
@@ -155,7 +184,7 @@ Word Parser::read_integer(const Word& keyword, std::string_view needs, std::uint
     fail(word_, fmt::format("'{}'{} is not a plain integer", printable(word_.text), in_entity()),
          fmt::format("'{}' takes {}", keyword.text, needs));
   }
-  refuse_cut_word(in_entity());
+  if (word_.text.size() >= WordReader::k_max_word) refuse_cut_word(in_entity());
   const Word place = word_;
   advance();
   return place;
@@ -537,6 +566,17 @@ void Parser::corners(const Word& keyword, CornerFormat format) {
     fail(count_place, fmt::format("'{}' announces {} vertices, at most {} are possible", keyword.text, count,
                                   k_max_polygon_vertices));
   }
+  read_corners(keyword, format, count, true);
+}
+
+bool Parser::corners_at_once(const Word& keyword, CornerFormat format) {
+  std::int64_t count = 0;
+  if (options_.plain || !reader_.next_count(3, k_max_polygon_vertices, count)) return false;
+  read_corners(keyword, format, count, false);
+  return true;
+}
+
+void Parser::read_corners(const Word& keyword, CornerFormat format, std::int64_t count, bool word_at_hand) {
   const bool kept = count >= 3;
   if (kept) {
     before_object(keyword);
@@ -545,21 +585,26 @@ void Parser::corners(const Word& keyword, CornerFormat format) {
     warn(keyword, "polygon of less than 3 vertices is skipped");
   }
   PlanarityCheck planarity;
-  for (std::int64_t i = 0; i < count; ++i) {
-    std::array<double, 8> numbers;
-    for (std::size_t k = 0; k < format.numbers; ++k) {
-      if (!take_number(numbers[k]))
-        fail_short_polygon(keyword, count, format, static_cast<std::uint64_t>(i) * format.numbers + k);
-    }
+  const std::uint64_t needed = static_cast<std::uint64_t>(count) * format.numbers;
+  const std::size_t whole_corners = k_numbers_at_once - k_numbers_at_once % format.numbers;
+  std::array<double, k_numbers_at_once> numbers;
+  for (std::uint64_t done = 0; done < needed;) {
+    const std::size_t wanted = std::min<std::uint64_t>(needed - done, whole_corners);
+    const std::size_t found = take_numbers(std::span(numbers).first(wanted), word_at_hand);
+    if (found < wanted) fail_short_polygon(keyword, count, format, done + found);
+    done += found;
     if (!kept) continue;
-    const V3d position(numbers[0], numbers[1], numbers[2]);
-    if (count > 3) planarity.add(position);
-    if (format.normal) {
-      builder_.add_corner(position, V3d(numbers[3], numbers[4], numbers[5]));
-    } else {
-      builder_.add_corner(position);
+    for (std::size_t k = 0; k < found; k += format.numbers) {
+      const V3d position(numbers[k], numbers[k + 1], numbers[k + 2]);
+      if (count > 3) planarity.add(position);
+      if (format.normal) {
+        builder_.add_corner(position, V3d(numbers[k + 3], numbers[k + 4], numbers[k + 5]));
+      } else {
+        builder_.add_corner(position);
+      }
     }
   }
+  if (!word_at_hand) advance();
   // The cheap look at one character keeps the usual case, a keyword, from being parsed as a number.
   if (!at_end_ && word_.text.front() < 'A') fail_long_polygon(keyword, count, format);
   if (!kept) return;

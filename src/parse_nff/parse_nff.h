@@ -13,6 +13,7 @@ namespace farop {
 
 struct NffOptions {
   ProgressFunction progress;  ///< called with bytes read so far and bytes in all, once per block of input
+  bool plain = false;         ///< the plain reader alone: same scene, same messages, slower; for comparison
   int warnings_per_kind = 3;  ///< further ones are only counted, in one closing line per kind
 };
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "parse_nff/parse_nff.h"
+#include "scene/merge.h"
 
 namespace farop {
 
@@ -33,13 +35,37 @@ struct ParsedText {
   const InputSummary& summary() const { return scene->inputs.at(0); }
 };
 
-inline ParsedText parse_text(std::string_view text, const NffOptions& options = {}) {
+inline ParsedText parse_only(std::string_view text, const NffOptions& options) {
   WordReader reader(text, "folder/scene.nff");
   DiagnosticList list;
   ParsedText parsed;
   parsed.scene = parse_nff(reader, list, options);
   parsed.reports = std::move(list.items);
   return parsed;
+}
+
+/// The fast way through numbers must not show: same scene, same messages at the same places as the plain way.
+/// Blanks behind the text let it be taken to the end.
+inline void expect_same_as_plain(std::string_view text, const NffOptions& options) {
+  const std::string padded = std::string(text) + std::string(80, ' ');
+  NffOptions plain_options = options;
+  plain_options.plain = true;
+  const ParsedText fast = parse_only(padded, options), plain = parse_only(padded, plain_options);
+  ASSERT_EQ(fast.scene.has_value(), plain.scene.has_value()) << text;
+  if (fast.scene) {
+    ASSERT_TRUE(same_content(*fast.scene, *plain.scene)) << text;
+  }
+  ASSERT_EQ(fast.reports.size(), plain.reports.size()) << text;
+  for (std::size_t i = 0; i < fast.reports.size(); ++i) {
+    ASSERT_EQ(fast.report(i), plain.report(i)) << text;
+    ASSERT_EQ(fast.reports[i].hint, plain.reports[i].hint) << text;
+    ASSERT_EQ(fast.reports[i].excerpt, plain.reports[i].excerpt) << text;
+  }
+}
+
+inline ParsedText parse_text(std::string_view text, const NffOptions& options = {}) {
+  if (text.size() < 100'000) expect_same_as_plain(text, options);
+  return parse_only(text, options);
 }
 
 /// What must hold for every text whatever: a scene without an error, or no scene and exactly one error as the
