@@ -6,7 +6,8 @@
 // Addison-Wesley 1990, section 15.6. The option `variant` chooses what the paper's table compares:
 //
 //   1  Any polygons. Every one brings its own edges. A line is cut into spans where a segment ends and where
-//      two segments cross; in every span with several polygons their depths are compared.
+//      two segments cross; in every span with several polygons their depths are compared (first of the whole
+//      polygons, the "minimax test" of M. E. Newell, R. G. Newell and T. L. Sancha, 1972; then at pixels).
 //   2  Solids. Every edge is entered once, with the two polygons that share it: half the edge table. Where
 //      the visible polygon ends on such an edge its neighbour goes on, and a hidden one is followed by a
 //      hidden one: no depths are compared. Faces of a solid do not cross: spans are cut at end points only.
@@ -35,13 +36,14 @@
 //   spans              pieces that lines were cut into (after what hides what was decided, neighbouring
 //   pieces
 //                      of one polygon are joined)
-//   depth_comparisons  of two polygons at one pixel
+//   depth_comparisons  of two polygons, at one pixel or of all depths that they have
 //   pixels             drawn
 //   build_seconds      finding solids and neighbours, making and sorting the edge table
 //   scan_seconds       active edges, spans and what is visible in them
 //   pixel_seconds      writing the pixels. It is a pass of its own, so measuring it costs the others nothing.
 // Storing the polygons as they come is in none of the times, nor is clearing the frame, which FAROP does.
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
@@ -105,18 +107,21 @@ constexpr int k_depth_bits = 28;  ///< fraction of Polygon::z and z_step: 2^30 d
 constexpr int k_compare_bits = 8;
 constexpr int k_color_bits = 22;  ///< fraction of colours: 255 fits 32 bits, 32767 steps lose 1/100
 
-struct Polygon {
+/// One in a cache line: the sweep goes from one to another all the time.
+struct alignas(64) Polygon {
   std::uint32_t first_corner = 0, corner_count = 0;
   std::uint32_t surface = 0;
   bool back_facing = false, one_color = false;
-  bool in_surface = false;  ///< a flat file has no surfaces
+  bool in_surface = false;                 ///< a flat file has no surfaces
+  std::int32_t nearest = 0, farthest = 0;  ///< depth of its corners
   // Of the current line:
   bool in = false;                 ///< the sweep is inside
   bool slope_known = false;        ///< z, z_step
   std::uint32_t place = 0;         ///< in the list of those that are in
   std::uint32_t candidate_at = 0;  ///< column number, see Solids::candidates_
-  std::uint32_t left = 0;          ///< crossing at which it was entered
-  std::int32_t column = 0;         ///< there
+  std::uint32_t left = 0;   ///< crossing at which it was entered: 2 k + side, active edge k has it there
+  std::uint32_t right = 0;  ///< active edge at which it is left; 0: nobody has asked
+  std::int32_t column = 0;  ///< there
   std::int64_t z = 0, z_step = 0;  ///< depth at `column`, from pixel to pixel
 };
 
@@ -138,6 +143,13 @@ struct Span {
 struct Ramp {
   std::uint32_t color[3], step[3];
 };
+
+/// Four pixels of one colour, as they stand in the frame: what fill() copies.
+using FourPixels = std::array<std::uint8_t, 12>;
+
+FourPixels four_of(const farop_vertex& v) {
+  return {v.r, v.g, v.b, v.r, v.g, v.b, v.r, v.g, v.b, v.r, v.g, v.b};
+}
 
 /// A number that depends on all bits of two ids. (The finisher of S. Vigna's SplitMix64.)
 std::uint64_t mixed(std::uint32_t a, std::uint32_t b) {
@@ -172,10 +184,6 @@ class Solids {
     double left = 0, right = 0, to_first = 0, width = 1;
     std::int32_t pixels = 0;
   };
-  /// Of the hash table that finds edges by their ids.
-  struct Slot {
-    std::uint32_t low_id, high_id, surface, edge;
-  };
 
   // the tables
   std::uint32_t number_of_surface(std::uint32_t object_id, std::uint32_t surface_id);
@@ -190,7 +198,7 @@ class Solids {
                   std::uint32_t polygon);
   void sort_into_buckets();
 
-  // a line
+  // a line (what runs once a crossing is defined inline)
   void next_active_edges();
   void sweep();
   void cross(std::uint32_t active);
@@ -205,14 +213,15 @@ class Solids {
   void emit(std::int32_t column, std::int32_t end);
 
   // depths and colours on it
-  void pair_crossings();
+  const Edge& right_edge(Polygon& polygon);
   template <class At>
-  Ends ends(const Polygon& polygon, const At& at);
+  Ends ends(Polygon& polygon, const At& at);
+  bool is_all_behind(std::uint32_t a, std::uint32_t b) const;
   std::int64_t depth(std::uint32_t polygon, std::int32_t column);
   void find_slope(Polygon& polygon);
   bool in_front(std::uint32_t a, std::int64_t depth_a, std::uint32_t b, std::int64_t depth_b);
   std::int32_t comes_through(std::uint32_t a, std::uint32_t b, std::int32_t column, std::int32_t end);
-  std::uint32_t make_ramp(const Polygon& polygon, std::int32_t column);
+  std::uint32_t make_ramp(Polygon& polygon, std::int32_t column);
 
   void write_pixels();
   void report(double build, double scan, double pixel) const;
@@ -226,6 +235,7 @@ class Solids {
   std::vector<farop_vertex> corners_;
   std::vector<std::uint32_t> ids_;  ///< of the corners
   std::vector<Polygon> polygons_;
+  std::vector<FourPixels> colors_;  ///< of the polygons, at their first corner
   std::vector<Surface> surfaces_;
   std::unordered_map<std::uint64_t, std::uint32_t> surface_number_;  ///< both ids -> into surfaces_
   std::uint64_t last_surface_ = 0;
@@ -237,7 +247,7 @@ class Solids {
   std::vector<EdgeEnds> edge_ends_;
   std::vector<std::int32_t> first_line_;  ///< of the edges, before they are sorted
   std::vector<std::uint32_t> bucket_;     ///< line -> its first edge
-  std::vector<Slot> slots_;               ///< hash table: ids -> edge
+  std::vector<std::uint32_t> slots_;      ///< hash table: ids and surface -> edge, or k_none
 
   // The current line.
   std::int32_t line_ = 0;
@@ -247,9 +257,6 @@ class Solids {
   std::uint32_t visible_ = k_none;
   std::uint32_t column_number_ = 0;  ///< counts the columns of the frame at which edges cross
   std::uint32_t solids_in_ = 0, others_in_ = 0;
-  bool paired_ = false;
-  /// Crossing 2 k + side (active edge k, its polygon `side`) -> the crossing at which that polygon ends.
-  std::vector<std::uint32_t> right_of_, pending_;
 
   std::vector<Span> spans_;
   std::vector<std::size_t> line_end_;  ///< line -> end of its spans
@@ -265,6 +272,7 @@ void Solids::begin(const farop_frame& frame) {
   corners_.clear();
   ids_.clear();
   polygons_.clear();
+  colors_.clear();
   surfaces_.clear();
   surface_number_.clear();
 }
@@ -278,11 +286,14 @@ void Solids::store(const farop_polygon& polygon) {
   stored.back_facing = (polygon.flags & FAROP_POLYGON_BACK_FACING) != 0;
   stored.one_color = true;
   const farop_vertex* const v = polygon.vertices;
+  stored.nearest = stored.farthest = v[0].z;
   for (std::uint32_t i = 0; i < polygon.vertex_count; ++i) {
     if (v[i].x < 0 || v[i].x > right || v[i].y < 0 || v[i].y > top) {
       throw Refusal(FAROP_E_INVALID, "solids: a corner outside the frame");
     }
     stored.one_color = stored.one_color && v[i].r == v[0].r && v[i].g == v[0].g && v[i].b == v[0].b;
+    stored.nearest = std::min(stored.nearest, v[i].z);
+    stored.farthest = std::max(stored.farthest, v[i].z);
   }
   corners_.insert(corners_.end(), v, v + polygon.vertex_count);
   stored.surface = number_of_surface(polygon.object_id, polygon.surface_id);
@@ -295,6 +306,7 @@ void Solids::store(const farop_polygon& polygon) {
     }
   }
   polygons_.push_back(stored);
+  colors_.push_back(four_of(v[0]));
 }
 
 // Polygons of a surface mostly come one after the other.
@@ -338,7 +350,7 @@ void Solids::build_edge_table() {
     find_solids();
     std::size_t slots = 16;
     while (slots < corners_.size()) slots *= 2;  // edges are half as many: at most half full
-    slots_.assign(slots, {0, 0, 0, k_none});
+    slots_.assign(slots, k_none);
   }
   for (std::uint32_t p = 0; p < polygons_.size(); ++p) {
     if (variant_ == 3 && surfaces_[polygons_[p].surface].solid && is_back_face(polygons_[p])) continue;
@@ -360,10 +372,10 @@ bool Solids::is_back_face(const Polygon& polygon) {
   const farop_vertex* const v = &corners_[polygon.first_corner];
   std::int64_t length = 0;
   bool both_ways = false;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const farop_vertex &a = v[i], &b = v[(i + 1) % count];
-    length += std::abs(b.x - a.x) + std::abs(b.y - a.y);
-    both_ways = both_ways || back_face_sign() * turn(a, b, v[(i + 2) % count]) < 0;
+  for (std::uint32_t i = 0, last = count - 1, before_last = count - 2; i < count;
+       before_last = last, last = i++) {
+    length += std::abs(v[i].x - v[last].x) + std::abs(v[i].y - v[last].y);
+    both_ways = both_ways || back_face_sign() * turn(v[before_last], v[last], v[i]) < 0;
   }
   // Polygons of more corners may well be concave; rounding can turn over thin ones only.
   return !(both_ways && (count == 4 || area <= length));
@@ -412,30 +424,29 @@ void Solids::enter_polygon(std::uint32_t polygon) {
 // Gives the edge that a neighbour has entered its second polygon. Or makes room for the edge to be entered
 // next, and returns false.
 bool Solids::enter_second_polygon(std::uint32_t low, std::uint32_t high, std::uint32_t polygon) {
-  const Slot wanted = {ids_[low], ids_[high], polygons_[polygon].surface,
-                       static_cast<std::uint32_t>(edge_table_.size())};
+  const std::uint32_t low_id = ids_[low], high_id = ids_[high], surface = polygons_[polygon].surface;
   const std::size_t mask = slots_.size() - 1;
-  std::size_t at =
-      static_cast<std::size_t>(mixed(wanted.low_id ^ (wanted.surface << 16), wanted.high_id)) & mask;
-  for (; slots_[at].edge != k_none; at = (at + 1) & mask) {
-    const Slot& slot = slots_[at];
-    if (slot.low_id != wanted.low_id || slot.high_id != wanted.high_id || slot.surface != wanted.surface)
+  std::size_t at = static_cast<std::size_t>(mixed(low_id ^ (surface << 16), high_id)) & mask;
+  for (; slots_[at] != k_none; at = (at + 1) & mask) {
+    Edge& edge = edge_table_[slots_[at]];
+    const EdgeEnds& ends = edge_ends_[edge.ends];
+    if (ids_[ends.low] != low_id || ids_[ends.high] != high_id ||
+        polygons_[edge.polygon[0]].surface != surface) {
       continue;
-    Edge& edge = edge_table_[slot.edge];
+    }
     const auto same_place = [&](const farop_vertex& a, const farop_vertex& b) {
       return a.x == b.x && a.y == b.y && a.z == b.z;
     };
-    const EdgeEnds& ends = edge_ends_[edge.ends];
     const bool same =
         same_place(corners_[ends.low], corners_[low]) && same_place(corners_[ends.high], corners_[high]);
     if (same && edge.polygon[1] == k_none) {
       edge.polygon[1] = polygon;
       return true;
     }
-    surfaces_[wanted.surface].solid = false;  // a third polygon, or ids that are none
+    surfaces_[surface].solid = false;  // a third polygon, or ids that are none
     return false;
   }
-  slots_[at] = wanted;
+  slots_[at] = static_cast<std::uint32_t>(edge_table_.size());
   return false;
 }
 
@@ -486,15 +497,16 @@ void Solids::next_active_edges() {
   // Drop, step, and put back in order those that have crossed others: few, unless the picture is a heap of
   // needles.
   std::size_t kept = 0, moves_left = 16 * active_.size() + 256;
-  for (std::size_t k = 0; k < active_.size(); ++k) {
-    if (active_[k].end_line <= line_) continue;
-    Edge edge = active_[k];
+  Edge* const active = active_.data();
+  for (std::size_t k = 0, count = active_.size(); k < count; ++k) {
+    if (active[k].end_line <= line_) continue;
+    Edge edge = active[k];
     edge.step_up();
     std::size_t place = kept++;
-    for (; place > 0 && moves_left > 0 && before(edge, active_[place - 1]); --place, --moves_left) {
-      active_[place] = active_[place - 1];
+    for (; place > 0 && moves_left > 0 && before(edge, active[place - 1]); --place, --moves_left) {
+      active[place] = active[place - 1];
     }
-    active_[place] = edge;
+    active[place] = edge;
   }
   active_.resize(kept);
   if (moves_left == 0) std::sort(active_.begin(), active_.end(), before);
@@ -515,22 +527,24 @@ void Solids::next_active_edges() {
 // ---- from left to right through a line ----------------------------------------------------------
 
 void Solids::sweep() {
-  paired_ = false;
   visible_ = k_none;
   line_begin_ = spans_.size();
-  for (std::size_t k = 0; k < active_.size();) {
-    const std::int32_t column = active_[k].column;
+  const Edge* const active = active_.data();
+  const auto count = static_cast<std::uint32_t>(active_.size());
+  for (std::uint32_t k = 0; k < count;) {
+    const std::int32_t column = active[k].column;
     ++column_number_;
     candidates_.clear();
     do {
-      cross(static_cast<std::uint32_t>(k++));
-    } while (k < active_.size() && active_[k].column == column);
+      cross(k++);
+    } while (k < count && active[k].column == column);
     if (in_.empty()) continue;
     ++count_.spans;
+    const std::int32_t end = active[k].column;
     if (in_.size() > 1 && must_be_careful()) {
-      emit_careful(in_, column, active_[k].column);
+      emit_careful(in_, column, end);
     } else {
-      emit_trusting(column, active_[k].column);
+      emit_trusting(column, end);
     }
   }
 }
@@ -564,11 +578,11 @@ void Solids::cross(std::uint32_t active) {
   }
 }
 
-void Solids::enter(std::uint32_t polygon, std::uint32_t crossing) {
+inline void Solids::enter(std::uint32_t polygon, std::uint32_t crossing) {
   Polygon& p = polygons_[polygon];
   p.in = true;
   p.slope_known = false;
-  p.left = crossing;
+  p.left = crossing, p.right = 0;
   p.column = active_[crossing / 2].column;
   p.place = static_cast<std::uint32_t>(in_.size());
   in_.push_back(polygon);
@@ -581,17 +595,17 @@ void Solids::enter(std::uint32_t polygon, std::uint32_t crossing) {
 }
 
 // leave() and enter() for two of one surface.
-void Solids::replace(std::uint32_t from, std::uint32_t to, std::uint32_t crossing) {
+inline void Solids::replace(std::uint32_t from, std::uint32_t to, std::uint32_t crossing) {
   Polygon &p = polygons_[from], &q = polygons_[to];
   p.in = false, q.in = true;
   q.slope_known = false;
-  q.left = crossing;
+  q.left = crossing, q.right = 0;
   q.column = active_[crossing / 2].column;
   q.place = p.place;
   in_[q.place] = to;
 }
 
-void Solids::leave(std::uint32_t polygon) {
+inline void Solids::leave(std::uint32_t polygon) {
   Polygon& p = polygons_[polygon];
   p.in = false;
   in_[p.place] = in_.back();
@@ -605,7 +619,7 @@ void Solids::leave(std::uint32_t polygon) {
     --solids_in_;
 }
 
-void Solids::make_candidate(std::uint32_t polygon) {
+inline void Solids::make_candidate(std::uint32_t polygon) {
   polygons_[polygon].candidate_at = column_number_;
   candidates_.push_back(polygon);
 }
@@ -616,7 +630,7 @@ bool Solids::must_be_careful() const {
 
 // What is visible from this column to the next end point, if all that is there belongs to one solid: nothing
 // new, unless the sweep came over an outline. Faces do not cross, so depths at this pixel hold up to the end.
-void Solids::emit_trusting(std::int32_t column, std::int32_t end) {
+inline void Solids::emit_trusting(std::int32_t column, std::int32_t end) {
   bool certain = true;
   if (in_.size() == 1) {
     visible_ = in_[0];
@@ -639,13 +653,11 @@ void Solids::emit_trusting(std::int32_t column, std::int32_t end) {
 void Solids::emit_careful(const std::vector<std::uint32_t>& polygons, std::int32_t column, std::int32_t end) {
   for (std::int32_t cut = end; column < end; column = cut, cut = end) {
     nearest_among(polygons, column);
-    std::int64_t limit = depth(visible_, cut - 1);
     for (const std::uint32_t polygon : polygons) {
-      if (polygon == visible_ || cut == column + 1) continue;
+      if (polygon == visible_ || cut == column + 1 || is_all_behind(polygon, visible_)) continue;
       ++count_.depth_comparisons;
-      if (!in_front(polygon, depth(polygon, cut - 1), visible_, limit)) continue;
+      if (!in_front(polygon, depth(polygon, cut - 1), visible_, depth(visible_, cut - 1))) continue;
       cut = comes_through(polygon, visible_, column, cut);
-      limit = depth(visible_, cut - 1);
     }
     if (cut < end) ++count_.spans;
     emit(column, cut);
@@ -656,21 +668,24 @@ void Solids::emit_careful(const std::vector<std::uint32_t>& polygons, std::int32
 bool Solids::nearest_among(const std::vector<std::uint32_t>& polygons, std::int32_t column) {
   bool alone = true;
   visible_ = polygons[0];
-  std::int64_t nearest = depth(visible_, column);
   for (std::size_t i = 1; i < polygons.size(); ++i) {
+    const std::uint32_t polygon = polygons[i];
     ++count_.depth_comparisons;
-    const std::int64_t here = depth(polygons[i], column);
-    if (here <= nearest) {
-      alone = here < nearest;
-      if (in_front(polygons[i], here, visible_, nearest)) visible_ = polygons[i];
-      nearest = here;
+    if (is_all_behind(polygon, visible_)) continue;
+    if (is_all_behind(visible_, polygon)) {
+      visible_ = polygon, alone = true;
+      continue;
     }
+    const std::int64_t nearest = depth(visible_, column), here = depth(polygon, column);
+    if (here > nearest) continue;
+    alone = here < nearest;
+    if (in_front(polygon, here, visible_, nearest)) visible_ = polygon;
   }
   return alone;
 }
 
-void Solids::emit(std::int32_t column, std::int32_t end) {
-  const Polygon& polygon = polygons_[visible_];
+inline void Solids::emit(std::int32_t column, std::int32_t end) {
+  Polygon& polygon = polygons_[visible_];
   if (spans_.size() > line_begin_ && spans_.back().end == column && spans_.back().polygon == visible_ &&
       (polygon.one_color || last_left_ == polygon.left)) {
     spans_.back().end = end;
@@ -682,33 +697,24 @@ void Solids::emit(std::int32_t column, std::int32_t end) {
 
 // ---- depths and colours on a line ---------------------------------------------------------------
 
-// Where every polygon that is entered on this line is left. Only for lines on which somebody asks.
-void Solids::pair_crossings() {
-  paired_ = true;
-  right_of_.resize(2 * active_.size());
-  pending_.resize(polygons_.size(), k_none);
-  for (std::uint32_t k = 0; k < active_.size(); ++k) {
-    const std::uint32_t* const polygon = active_[k].polygon;
-    for (std::uint32_t side = 0; side < 2; ++side) {
-      if (polygon[side] == k_none || polygon[0] == polygon[1]) continue;
-      std::uint32_t& pending = pending_[polygon[side]];
-      if (pending == k_none) {
-        pending = 2 * k + side;
-      } else {
-        right_of_[pending] = k;
-        pending = k_none;
-      }
-    }
+// Where a polygon that was entered on this line is left. Only for those that somebody asks for.
+const Edge& Solids::right_edge(Polygon& polygon) {
+  if (polygon.right == 0) {
+    const std::uint32_t self = static_cast<std::uint32_t>(&polygon - polygons_.data());
+    std::uint32_t k = polygon.left / 2 + 1;
+    // Its next edge, but no bridge that is walked twice.
+    while ((active_[k].polygon[0] == self) == (active_[k].polygon[1] == self)) ++k;
+    polygon.right = k;
   }
+  return active_[polygon.right];
 }
 
 // Anything that is linear along the segment of a polygon on this line: what `at` says of the edges that bound
 // it, at a part 0 .. 1 of their height. The segment is `width` columns wide, and its first pixel lies
 // `to_first` columns from its left end.
 template <class At>
-Solids::Ends Solids::ends(const Polygon& polygon, const At& at) {
-  if (!paired_) pair_crossings();
-  const Edge &left = active_[polygon.left / 2], &right = active_[right_of_[polygon.left]];
+Solids::Ends Solids::ends(Polygon& polygon, const At& at) {
+  const Edge &left = active_[polygon.left / 2], &right = right_edge(polygon);
   const EdgeEnds &left_ends = edge_ends_[left.ends], &right_ends = edge_ends_[right.ends];
   const int bits = frame_->subpixel_bits;  // denominator = height << bits
   const auto along = [&](const EdgeEnds& edge) {
@@ -722,6 +728,11 @@ Solids::Ends Solids::ends(const Polygon& polygon, const At& at) {
                (right.denominator - right.excess) * right_ends.per_denominator;
   ends.pixels = right.column - left.column;
   return ends;
+}
+
+// Most polygons that lie behind each other are so far apart that no depths at a pixel need be known.
+inline bool Solids::is_all_behind(std::uint32_t a, std::uint32_t b) const {
+  return polygons_[a].nearest > polygons_[b].farthest;
 }
 
 inline std::int64_t Solids::depth(std::uint32_t polygon, std::int32_t column) {
@@ -765,7 +776,7 @@ std::int32_t Solids::comes_through(std::uint32_t a, std::uint32_t b, std::int32_
   return before;
 }
 
-std::uint32_t Solids::make_ramp(const Polygon& polygon, std::int32_t column) {
+std::uint32_t Solids::make_ramp(Polygon& polygon, std::int32_t column) {
   Ramp ramp;
   const auto set = [&](int channel, std::uint8_t farop_vertex::*component) {
     const Ends c = ends(polygon, [&](const EdgeEnds& edge, double t) {
@@ -786,12 +797,20 @@ std::uint32_t Solids::make_ramp(const Polygon& polygon, std::int32_t column) {
 
 // ---- pixels -------------------------------------------------------------------------------------
 
-/// The same three bytes `count` times.
-void fill(std::uint8_t* to, std::int32_t count, const std::uint8_t (&rgb)[3]) {
-  std::uint8_t four[12];
-  for (int i = 0; i < 12; ++i) four[i] = rgb[i % 3];
-  for (; count >= 4; count -= 4, to += 12) std::memcpy(to, four, 12);
-  std::memcpy(to, four, 3 * static_cast<std::size_t>(count));
+/// The same three bytes `count` times, count > 0.
+void fill(std::uint8_t* to, std::int32_t count, const FourPixels& four) {
+  std::uint8_t* const end = to + 3 * std::ptrdiff_t{count};
+  // Some pixels are written twice: that is faster than to ask how many are left.
+  if (count >= 4) {
+    std::memcpy(to, four.data(), 12);
+    std::memcpy(end - 12, four.data(), 12);
+    for (; count > 8; count -= 4) std::memcpy(to += 12, four.data(), 12);
+  } else if (count >= 2) {
+    std::memcpy(to, four.data(), 6);
+    std::memcpy(end - 6, four.data(), 6);
+  } else {
+    std::memcpy(to, four.data(), 3);
+  }
 }
 
 void Solids::write_pixels() {
@@ -803,8 +822,7 @@ void Solids::write_pixels() {
       std::uint8_t* pixel = row + 3 * std::int64_t{span.first};
       count_.pixels += static_cast<std::uint64_t>(span.end - span.first);
       if (span.ramp == k_none) {
-        const farop_vertex& v = corners_[polygons_[span.polygon].first_corner];
-        fill(pixel, span.end - span.first, {v.r, v.g, v.b});
+        fill(pixel, span.end - span.first, colors_[span.polygon]);
         continue;
       }
       Ramp ramp = ramps_[span.ramp];
@@ -825,7 +843,7 @@ void Solids::draw() {
   build_edge_table();
   const auto built = Clock::now();
   // Whatever a frame that failed has left behind.
-  active_.clear(), in_.clear(), pending_.clear();
+  active_.clear(), in_.clear();
   spans_.clear(), ramps_.clear();
   solids_in_ = others_in_ = column_number_ = 0;
   line_end_.clear();
