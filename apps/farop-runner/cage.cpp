@@ -22,6 +22,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/hardware_counters.h"
+#include "core/statistics.h"
 #include "crash_handler.h"
 #include "plugin/host_services.h"
 #include "plugin/plugin_library.h"
@@ -35,10 +37,18 @@
 namespace farop::isolate {
 namespace {
 
-std::uint64_t now() {
-  timespec t{};
-  ::clock_gettime(CLOCK_MONOTONIC, &t);
-  return static_cast<std::uint64_t>(t.tv_sec) * 1000000000u + static_cast<std::uint64_t>(t.tv_nsec);
+std::uint64_t to_nanoseconds(double seconds) {
+  return static_cast<std::uint64_t>(std::max(seconds, 0.0) * 1e9);
+}
+
+void put_times(Reply& reply, const StageTime& begun, const StageTime& ended) {
+  const StageTime taken = time_between(begun, ended);
+  reply.begun = to_nanoseconds(begun.elapsed);
+  reply.nanoseconds = to_nanoseconds(taken.elapsed);
+  reply.user_nanoseconds = to_nanoseconds(taken.user);
+  reply.system_nanoseconds = to_nanoseconds(taken.system);
+  reply.cycles = taken.cycles.value_or(k_not_counted);
+  reply.instructions = taken.instructions.value_or(k_not_counted);
 }
 
 /// The processor's settings that a rasterizer has to leave alone.
@@ -173,6 +183,7 @@ class Cage {
     ::setsid();
     const auto asked = [&](Layer layer) { return (settings_.layers & layer) != 0; };
     map_shared_memory();
+    HardwareCounters::of_process();  // opening them is not allowed later; reading is
     install_crash_handler(box_, asked(k_limits) ? settings_.memory_bytes : 0);
     g_float = float_state();
     Hello hello;
@@ -365,17 +376,17 @@ class Cage {
   template <class Call, class After>
   void answer(Phase phase, const Call& call, const After& after) {
     box_->phase = phase;
-    const std::uint64_t begun = now();
+    const StageTime begun = read_clocks();
     const farop_status status = behind_barrier(call);
     settle();
-    const std::uint64_t ended = now();
+    const StageTime ended = read_clocks();
     after();
     box_->phase = Phase::idle;
     Reply r = reply(ReplyKind::done, serial_);
     r.warnings = g_warnings | restore_signals();
     r.status = status;
     r.polygon = box_->current;
-    r.nanoseconds = ended - begun;
+    put_times(r, begun, ended);
     if (status < 0) {
       r.memory_refused = memory_is_refused() ? 1 : 0;
       frame_lost_ = true;

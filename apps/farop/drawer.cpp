@@ -82,11 +82,7 @@ class LibraryDrawer : public Drawer {
     if (!rasterizer_.draws_here()) return std::nullopt;
     return rasterizer_.take();
   }
-  void report(RunReport::Raster& report) override {
-    const PluginTimes& t = rasterizer_.times();
-    report.calls = {t.create.total().elapsed, t.begin_frame.total().elapsed, t.polygon.total().elapsed,
-                    t.end_frame.total().elapsed};
-  }
+  void report(RunReport::Raster& report) override { report.calls = rasterizer_.times(); }
 
  private:
   static PluginLibrary open(Session& session, const std::string& file, const std::string& path,
@@ -131,7 +127,7 @@ class IsolatedDrawer : public Drawer {
   }
   void report(RunReport::Raster& report) override {
     const RunnerReport run = rasterizer_->report();
-    report.calls = {run.runner.create, run.runner.begin_frame, run.runner.polygon, run.runner.end_frame};
+    report.calls = run.runner;
     for (const IsolationLayer& layer : run.layers) {
       if (layer.holds) report.walls.push_back(layer.id);
     }
@@ -220,7 +216,8 @@ std::unique_ptr<Drawer> make_drawer(Session& session, const ChosenRasterizer& ra
       break;
     case RasterizerKind::library: {
       const LoadableRasterizer what = loadable(rasterizer.file, plugin_options(how));
-      const PluginDrawing drawing{options.samples, options.background};
+      TraceLog* const trace = session.options.trace_file.empty() ? nullptr : &session.trace;
+      const PluginDrawing drawing{options.samples, options.background, trace};
       if (how.in_process) {
         drawer = std::make_unique<LibraryDrawer>(session, rasterizer.file, what, drawing);
       } else {

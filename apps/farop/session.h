@@ -11,6 +11,7 @@
 #include "core/statistics.h"
 #include "geometry/pipeline.h"
 #include "options.h"
+#include "plugin/plugin_rasterizer.h"
 #include "scene/scene.h"
 #include "scene/tessellate.h"
 
@@ -38,12 +39,8 @@ struct RunReport {
   struct Raster {
     std::string rasterizer, mode;
     int samples = 1;
-    /// Seconds inside a user's rasterizer, by function; polygon is the sum over all polygons.
-    struct Calls {
-      double create = 0, begin_frame = 0, polygon = 0, end_frame = 0;
-    };
-    std::optional<Calls> calls;
-    std::vector<std::string> walls;  ///< layers of isolation that stood
+    std::optional<PluginTimes> calls;  ///< of a user's library
+    std::vector<std::string> walls;    ///< layers of isolation that stood
   };
   std::optional<Raster> raster;
   bool sink_writes = false;  ///< the polygons went to a file, not to a rasterizer

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stats.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -96,10 +97,28 @@ Json polygons_json(const PolygonCounts& c) {
           {"triangles", c.triangles}};
 }
 
+/// null: the machine does not let us count.
+Json to_json(const std::optional<std::uint64_t>& count) {
+  return count ? Json(*count) : Json(nullptr);
+}
+Json to_json(const StageTime& t) {
+  return {{"elapsed", t.elapsed},
+          {"user", t.user},
+          {"system", t.system},
+          {"cycles", to_json(t.cycles)},
+          {"instructions", to_json(t.instructions)}};
+}
+
 void add_timer(Json& timers, const char* name, const StageTimer& timer) {
-  if (!timer.ran()) return;
-  const StageTime& t = timer.total();
-  timers[name] = {{"elapsed", t.elapsed}, {"user", t.user}, {"system", t.system}};
+  if (timer.ran()) timers[name] = to_json(timer.total());
+}
+
+/// A name for the process (`thread` 0) or one of its tracks.
+Json trace_name(int thread, const std::string& name) {
+  Json json{{"name", thread == 0 ? "process_name" : "thread_name"}, {"ph", "M"}, {"pid", 1}};
+  if (thread != 0) json["tid"] = thread;
+  json["args"] = {{"name", name}};
+  return json;
 }
 
 }  // namespace
@@ -124,10 +143,14 @@ void write_stats(const Session& session, ExitStatus status) {
                       {"mode", report.raster->mode},
                       {"samples", report.raster->samples}};
     if (const auto& calls = report.raster->calls) {
-      json["raster"]["calls"] = {{"create", calls->create},
-                                 {"begin_frame", calls->begin_frame},
-                                 {"polygon", calls->polygon},
-                                 {"end_frame", calls->end_frame}};
+      json["raster"]["calls"] = {{"create", calls->create.elapsed},
+                                 {"begin_frame", calls->begin_frame.elapsed},
+                                 {"polygon", calls->polygon.elapsed},
+                                 {"end_frame", calls->end_frame.elapsed}};
+      json["raster"]["call_timers"] = {{"create", to_json(calls->create)},
+                                       {"begin_frame", to_json(calls->begin_frame)},
+                                       {"polygon", to_json(calls->polygon)},
+                                       {"end_frame", to_json(calls->end_frame)}};
       json["raster"]["isolation"] = report.raster->walls;
     }
   }
@@ -154,17 +177,18 @@ void write_trace(const Session& session) {
   OutputFile file(session.options.trace_file);
   // Line by line: a document of a million events would be held twice.
   file.write("{\"displayTimeUnit\": \"ms\", \"traceEvents\": [\n");
-  const Json name{{"name", "process_name"},
-                  {"ph", "M"},
-                  {"pid", 1},
-                  {"args", {{"name", "farop " + session.report.command}}}};
-  file.write(name.dump());
+  file.write(trace_name(0, "farop " + session.report.command).dump());
+  const auto track = [](TraceTrack t) { return static_cast<int>(t); };
+  file.write(",\n" + trace_name(track(TraceTrack::stages), "stages").dump());
+  const bool calls = std::any_of(slices.begin(), slices.end(),
+                                 [](const auto& s) { return s.track == TraceTrack::rasterizer; });
+  if (calls) file.write(",\n" + trace_name(track(TraceTrack::rasterizer), "calls of the rasterizer").dump());
   for (const TraceLog::Slice& slice : slices) {
     const bool writes = session.report.sink_writes && std::string_view(slice.stage) == "rasterize";
     const Json event{{"name", writes ? "write" : slice.stage},
                      {"ph", "X"},
                      {"pid", 1},
-                     {"tid", 1},
+                     {"tid", track(slice.track)},
                      {"ts", 1e6 * (slice.begin - begin)},
                      {"dur", 1e6 * (slice.end - slice.begin)}};
     file.write(",\n" + event.dump());

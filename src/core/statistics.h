@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace farop {
@@ -24,15 +25,21 @@ struct PolygonCounts {
   friend bool operator==(const PolygonCounts&, const PolygonCounts&) = default;
 };
 
-/// Seconds of one stage.
+/// Seconds of one stage. Cycles and instructions in user mode, where the machine lets us count them.
 struct StageTime {
   double elapsed = 0, user = 0, system = 0;
+  std::optional<std::uint64_t> cycles, instructions;
 
-  StageTime& operator+=(const StageTime& o) {
-    elapsed += o.elapsed, user += o.user, system += o.system;
-    return *this;
-  }
+  StageTime& operator+=(const StageTime& o);
 };
+
+/// The clocks and counters as they stand: elapsed on the steady clock, the others of the whole process.
+StageTime read_clocks();
+/// From one reading to a later one.
+StageTime time_between(const StageTime& begin, const StageTime& end);
+
+/// What goes on beside each other in a picture of a run.
+enum class TraceTrack { stages = 1, rasterizer = 2 };
 
 /// Slices of stages in the order they ended, for a picture of the run along its time.
 class TraceLog {
@@ -40,6 +47,7 @@ class TraceLog {
   struct Slice {
     const char* stage;
     double begin, end;  ///< seconds on the steady clock
+    TraceTrack track = TraceTrack::stages;
   };
   /// Beyond so many slices only the number of those left out grows: some 32 MB at most.
   static constexpr std::size_t k_max_slices = 1'000'000;
@@ -64,7 +72,9 @@ class TraceLog {
 class StageTimer {
  public:
   /// From now on every slice also goes to `log`, under this name; both must outlive the timer.
-  void trace_to(TraceLog* log, const char* stage) { log_ = log, stage_ = stage; }
+  void trace_to(TraceLog* log, const char* stage, TraceTrack track = TraceTrack::stages) {
+    log_ = log, stage_ = stage, track_ = track;
+  }
   void start();
   void stop();
   bool ran() const { return ran_; }
@@ -76,6 +86,7 @@ class StageTimer {
   bool ran_ = false;
   TraceLog* log_ = nullptr;
   const char* stage_ = "";
+  TraceTrack track_ = TraceTrack::stages;
 };
 
 /// Runs a StageTimer for the length of a block.

@@ -128,6 +128,10 @@ SharedMemory copy_of_library(const std::string& path) {
   return copy;
 }
 
+double steady_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
 std::uint64_t random_cookie() {
   std::random_device device;
   return (std::uint64_t{device()} << 32) | device();
@@ -253,7 +257,7 @@ class IsolatedRasterizer::Judge {
 
   RunnerReport report() const {
     RunnerReport report;
-    report.runner = runner_seconds_;
+    report.runner = runner_times_;
     report.judge = judge_seconds_;
     report.cpu = cpu_before_ + (process_ ? process_->cpu_seconds() : 0);
     report.peak_bytes = peak_bytes_;
@@ -271,6 +275,7 @@ class IsolatedRasterizer::Judge {
     SharedMemory memory;  ///< of a chunk that brings its own
     WritableView view;
     std::uint64_t offset = 0, bytes = 0;  ///< of the packed chunk
+    double asked = 0;                     ///< seconds on the steady clock
   };
 
   // ---- start --------------------------------------------------------------------------------------------
@@ -373,6 +378,7 @@ class IsolatedRasterizer::Judge {
     Outstanding& waiting = outstanding_.emplace_back();
     waiting.serial = request.serial;
     waiting.kind = request.kind;
+    waiting.asked = steady_seconds();
     process_->send(request, memory);  // if nobody listens any more, attend() learns why
     return waiting;
   }
@@ -464,7 +470,7 @@ class IsolatedRasterizer::Judge {
     const Outstanding done = std::move(outstanding_.front());
     outstanding_.pop_front();
     if (done.slot != k_no_slot) slot_busy_[done.slot] = false;
-    note_time(done.kind, reply.nanoseconds);
+    note_time(done, reply);
     note_warnings(reply.warnings & k_all_warnings);
     if (reply.status < 0) on_status(done, reply);
   }
@@ -620,12 +626,27 @@ class IsolatedRasterizer::Judge {
     if (polygon.vertex_count > 0) c.first_corner = view->vertices[polygon.first_vertex];
   }
 
-  void note_time(RequestKind kind, std::uint64_t nanoseconds) {
-    const double seconds = static_cast<double>(nanoseconds) * 1e-9;
-    if (kind == RequestKind::create) runner_seconds_.create += seconds;
-    if (kind == RequestKind::begin_frame) runner_seconds_.begin_frame += seconds;
-    if (kind == RequestKind::chunk) runner_seconds_.polygon += seconds;
-    if (kind == RequestKind::end_frame) runner_seconds_.end_frame += seconds;
+  /// Whatever the runner says of its times, they lie between the question and its answer.
+  void note_time(const Outstanding& request, const Reply& reply) {
+    const auto seconds = [](std::uint64_t nanoseconds) { return static_cast<double>(nanoseconds) * 1e-9; };
+    const auto count = [](std::uint64_t events) {
+      return events == k_not_counted ? std::optional<std::uint64_t>() : events;
+    };
+    const double now = steady_seconds();
+    const double begun = std::clamp(seconds(reply.begun), request.asked, now);
+    const double elapsed = std::min(seconds(reply.nanoseconds), now - begun);
+    const StageTime taken{elapsed, seconds(reply.user_nanoseconds), seconds(reply.system_nanoseconds),
+                          count(reply.cycles), count(reply.instructions)};
+    const auto note = [&](StageTime& sum, const char* name) {
+      sum += taken;
+      if (drawing_.trace != nullptr) {
+        drawing_.trace->add({name, begun, begun + elapsed, TraceTrack::rasterizer});
+      }
+    };
+    if (request.kind == RequestKind::create) note(runner_times_.create, "create");
+    if (request.kind == RequestKind::begin_frame) note(runner_times_.begin_frame, "begin_frame");
+    if (request.kind == RequestKind::chunk) note(runner_times_.polygon, "polygon");
+    if (request.kind == RequestKind::end_frame) note(runner_times_.end_frame, "end_frame");
   }
 
   void note_warnings(std::uint32_t warnings) {
@@ -725,7 +746,7 @@ class IsolatedRasterizer::Judge {
   BlackBox box_;
   std::vector<PluginFinding> findings_;
   std::set<std::string> said_;
-  PluginSeconds runner_seconds_;
+  PluginTimes runner_times_;
   double judge_seconds_ = 0, cpu_before_ = 0;
   std::uint64_t peak_bytes_ = 0;
   std::string out_, err_;

@@ -20,15 +20,10 @@ struct PluginDescription {
   std::uint32_t abi_version = 0, wants = 0;
 };
 
-/// Seconds by function of the table; `polygon` is the sum over all polygons.
-struct PluginSeconds {
-  double create = 0, begin_frame = 0, polygon = 0, end_frame = 0;
-};
-
 struct RunnerReport {
-  PluginSeconds runner;  ///< as the runner says: good for tuning, not for marks
-  double judge = 0;      ///< from begin_frame() to the end of end_frame() on this side, geometry included
-  double cpu = 0;        ///< of the runner's process, all threads
+  PluginTimes runner;  ///< as the runner says: good for tuning, not for marks
+  double judge = 0;    ///< from begin_frame() to the end of end_frame() on this side, geometry included
+  double cpu = 0;      ///< of the runner's process, all threads
   std::uint64_t peak_bytes = 0;        ///< resident; 0 while it runs
   std::string out, err;                ///< what it printed, first 64 KiB each, safe to print
   std::vector<IsolationLayer> layers;  ///< 0 and A to D: what stood

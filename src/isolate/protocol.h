@@ -86,6 +86,8 @@ struct Request {
 
 // ---- runner to judge ------------------------------------------------------------------------------------
 
+constexpr std::uint64_t k_not_counted = ~std::uint64_t{0};
+
 enum class ReplyKind : std::uint32_t { hello = 1, loaded, done, log };
 
 /// Warnings of Reply::warnings.
@@ -102,9 +104,12 @@ struct Reply {
   ReplyKind kind = ReplyKind::done;
   std::uint32_t serial = 0;
   std::uint64_t cookie = 0;
-  std::int32_t status = 0;        ///< farop_status; LoadFailure for `loaded`; level for `log`
-  std::uint32_t polygon = 0;      ///< last one called, for a chunk
-  std::uint64_t nanoseconds = 0;  ///< inside the rasterizer
+  std::int32_t status = 0;    ///< farop_status; LoadFailure for `loaded`; level for `log`
+  std::uint32_t polygon = 0;  ///< last one called, for a chunk
+  // Of `done`: inside the rasterizer.
+  std::uint64_t begun = 0;  ///< CLOCK_MONOTONIC, nanoseconds
+  std::uint64_t nanoseconds = 0, user_nanoseconds = 0, system_nanoseconds = 0;
+  std::uint64_t cycles = k_not_counted, instructions = k_not_counted;
   std::uint32_t warnings = 0;
   std::uint32_t memory_refused = 0;  ///< no room below the limit when the call failed
 };

@@ -83,8 +83,12 @@ Framebuffer average_blocks(const farop_frame& frame, int degree, bool y_down) {
 PluginRasterizer::PluginRasterizer(const PluginLibrary& library, HostServices& services,
                                    const PluginDrawing& drawing)
     : library_(library), services_(services), drawing_(drawing), chunk_(library.table->wants) {
+  create_timer_.trace_to(drawing.trace, "create", TraceTrack::rasterizer);
+  begin_timer_.trace_to(drawing.trace, "begin_frame", TraceTrack::rasterizer);
+  polygon_timer_.trace_to(drawing.trace, "polygon", TraceTrack::rasterizer);
+  end_timer_.trace_to(drawing.trace, "end_frame", TraceTrack::rasterizer);
   if (library_.table->create != nullptr) {
-    const TimedSlice slice(times_.create);
+    const TimedSlice slice(create_timer_);
     check(library_.table->create(services_.host(), &self_), "create");
   }
   created_ = true;
@@ -123,7 +127,7 @@ void PluginRasterizer::begin_frame(const ScreenFrame& frame) {
   }
   chunk_.begin_frame(frame.resolution.color);
   services_.forget_words();
-  const TimedSlice slice(times_.begin_frame);
+  const TimedSlice slice(begin_timer_);
   check(library_.table->begin_frame(self_, &frame_), "begin_frame");
 }
 
@@ -131,7 +135,7 @@ void PluginRasterizer::polygons(const ScreenPolygonBatch& batch) {
   chunk_.append(batch);
   farop_status status = FAROP_OK;
   {
-    const TimedSlice slice(times_.polygon);
+    const TimedSlice slice(polygon_timer_);
     status = play_chunk(*library_.table, self_, chunk_.view(), &current_);
   }
   check(status, "polygon");
@@ -139,8 +143,12 @@ void PluginRasterizer::polygons(const ScreenPolygonBatch& batch) {
 }
 
 void PluginRasterizer::end_frame() {
-  const TimedSlice slice(times_.end_frame);
+  const TimedSlice slice(end_timer_);
   check(library_.table->end_frame(self_), "end_frame");
+}
+
+PluginTimes PluginRasterizer::times() const {
+  return {create_timer_.total(), begin_timer_.total(), polygon_timer_.total(), end_timer_.total()};
 }
 
 Framebuffer PluginRasterizer::take() {

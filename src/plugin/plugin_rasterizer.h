@@ -31,14 +31,15 @@ void clear_frame(const farop_frame& frame);
 /// whatever `y_down` says of the frame. Width and height of the frame are multiples of `degree`.
 Framebuffer average_blocks(const farop_frame& frame, int degree, bool y_down);
 
-/// Seconds inside the rasterizer, by function; `polygon` is the sum over all polygons, read per batch.
+/// What a rasterizer took, by function; `polygon` is the sum over all polygons, read per batch.
 struct PluginTimes {
-  StageTimer create, begin_frame, polygon, end_frame;
+  StageTime create, begin_frame, polygon, end_frame;
 };
 
 struct PluginDrawing {
   int samples = 1;  ///< degree A of super-sampling, done by the host: the rasterizer draws A times as large
   Rgb background;   ///< limited to 0..1
+  TraceLog* trace = nullptr;  ///< every call goes there, polygons by the batch; outlives the rasterizer
 };
 
 /// Frames one after another, as InternalRasterizer: the frame given to begin_frame is that of the samples.
@@ -62,7 +63,7 @@ class PluginRasterizer : public ScreenPolygonSink {
   bool draws_here() const { return (library_.table->wants & FAROP_DRAWS_ELSEWHERE) == 0; }
   /// The finished picture, once per frame.
   Framebuffer take();
-  const PluginTimes& times() const { return times_; }
+  PluginTimes times() const;
 
  private:
   void check(farop_status status, const char* function) const;
@@ -77,7 +78,7 @@ class PluginRasterizer : public ScreenPolygonSink {
   std::vector<std::uint8_t> pixels_;
   PolygonChunk chunk_;
   volatile std::uint32_t current_ = 0;
-  PluginTimes times_;
+  StageTimer create_timer_, begin_timer_, polygon_timer_, end_timer_;
 };
 
 }  // namespace farop

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 
 #include "support/shell.h"
@@ -11,6 +14,7 @@ namespace farop::test {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::json;
 
 const char* const k_background = " --background 0.078 0.361 0.753 ";  // of the scene; a flat file has none
 
@@ -201,6 +205,51 @@ TEST_F(Rasterizers, RunBehindTheWallsThatTheStatisticsName) {
       "off.ppm out.ppm");
   EXPECT_EQ(read_file(folder_ / "s.json").find("D seccomp"), std::string::npos);
   run("farop raster gears.scr -o in.ppm --rasterizer trapezoid --in-process && cmp in.ppm out.ppm");
+}
+
+TEST_F(Rasterizers, AreTimedCallByCall) {
+  make_scene("gears --size 6");
+  for (const std::string how : {"", "--in-process"}) {
+    run("farop render gears.nff -o out.ppm -q --resolution 1200x1200 --rasterizer watkins --stats s.json "
+        "--trace t.json " +
+        how);
+    const Json stats = Json::parse(read_file(folder_ / "s.json"));
+    double processor = 0, elapsed = 0;
+    std::map<std::string, int> slices;
+    for (const char* call : {"create", "begin_frame", "polygon", "end_frame"}) {
+      const Json& timer = stats["raster"]["call_timers"][call];
+      EXPECT_EQ(timer["elapsed"], stats["raster"]["calls"][call]) << call;
+      processor += timer["user"].get<double>() + timer["system"].get<double>();
+      elapsed += timer["elapsed"].get<double>();
+      // Both or neither, and as the stages have it: one machine allows counting or does not.
+      EXPECT_EQ(timer["cycles"].is_null(), stats["timers"]["geometry"]["cycles"].is_null()) << call;
+      EXPECT_EQ(timer["instructions"].is_null(), timer["cycles"].is_null()) << call;
+      slices[call] = 0;
+    }
+    EXPECT_GT(processor, 0) << stats["raster"];
+    EXPECT_LE(processor, 1.1 * elapsed + 0.02) << stats["raster"];  // one thread
+
+    const Json trace = Json::parse(read_file(folder_ / "t.json"));
+    double total = 0, end = 0, traced = 0;
+    std::set<std::string> tracks;
+    for (const Json& event : trace["traceEvents"]) {
+      if (event["name"] == "thread_name") tracks.insert(event["args"]["name"]);
+      if (event["name"] == "total") total = event["dur"];
+      if (event["ph"] != "X" || event["tid"] != 2) continue;
+      ++slices.at(event["name"]);
+      // Slices of a track do not overlap: the rasterizer is called by one thread.
+      EXPECT_GE(event["ts"].get<double>(), end - 1) << event;
+      end = event["ts"].get<double>() + event["dur"].get<double>();
+      traced += event["dur"].get<double>();
+    }
+    EXPECT_EQ(tracks, (std::set<std::string>{"calls of the rasterizer", "stages"}));
+    EXPECT_EQ(slices["create"], 1);
+    EXPECT_EQ(slices["begin_frame"], 1);
+    EXPECT_GT(slices["polygon"], 1);  // by the chunk
+    EXPECT_EQ(slices["end_frame"], 1);
+    EXPECT_LE(end, total + 1);
+    EXPECT_NEAR(traced, 1e6 * elapsed, 10);
+  }
 }
 
 TEST_F(Rasterizers, SeeNothingOfABadFlatFile) {

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
-#include <linux/perf_event.h>
-#include <sys/syscall.h>
 #include <sys/utsname.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -13,6 +10,7 @@
 #include <thread>
 
 #include "command_line.h"
+#include "core/hardware_counters.h"
 #include "core/output_file.h"
 #include "isolate/isolation.h"
 #include "program_files.h"
@@ -56,31 +54,15 @@ std::string isolation_section() {
   return text;
 }
 
-/// Opens a hardware counter of this process, as --trace and timers would.
-std::string counter_failure(std::uint64_t event) {
-  perf_event_attr attributes{};
-  attributes.type = PERF_TYPE_HARDWARE;
-  attributes.size = sizeof attributes;
-  attributes.config = event;
-  attributes.exclude_kernel = 1;
-  attributes.exclude_hv = 1;
-  const long descriptor = ::syscall(SYS_perf_event_open, &attributes, 0, -1, -1, 0);
-  if (descriptor < 0) return std::strerror(errno);
-  ::close(static_cast<int>(descriptor));
-  return "";
-}
-
 std::string counters_section() {
   const std::string remedy =
       "sysctl kernel.perf_event_paranoid=2 on the machine itself; virtual machines often have none";
-  std::string text = "Counters\n";
-  const std::pair<const char*, std::uint64_t> events[] = {{"cycles", PERF_COUNT_HW_CPU_CYCLES},
-                                                          {"instructions", PERF_COUNT_HW_INSTRUCTIONS}};
-  for (const auto& [name, event] : events) {
-    const std::string failure = counter_failure(event);
-    text += row(failure.empty(), name, failure, remedy);
-  }
-  return text;
+  const HardwareCounters& counters = HardwareCounters::of_process();
+  const auto counter = [&](const char* name, const PerfCounter& c) {
+    return row(c.error() == 0, name, c.error() == 0 ? "" : std::strerror(c.error()), remedy);
+  };
+  return "Counters (timers of --stats)\n" + counter("cycles", counters.cycles) +
+         counter("instructions", counters.instructions);
 }
 
 std::string machine_section() {

@@ -44,7 +44,8 @@ Reply any_reply(ReplyKind kind, std::uint64_t cookie, std::uint32_t serial) {
   r.serial = one_in(20) ? static_cast<std::uint32_t>(any()) : serial;
   r.status = one_in(10) ? static_cast<std::int32_t>(any()) : 0;
   r.polygon = static_cast<std::uint32_t>(any());
-  r.nanoseconds = any();
+  r.begun = any(), r.nanoseconds = any(), r.user_nanoseconds = any(), r.system_nanoseconds = any();
+  r.cycles = any(), r.instructions = any();
   r.warnings = static_cast<std::uint32_t>(any());
   r.memory_refused = static_cast<std::uint32_t>(any());
   return r;
