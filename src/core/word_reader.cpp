@@ -260,6 +260,30 @@ bool WordReader::next_count(std::int64_t lowest, std::int64_t highest, std::int6
   return true;
 }
 
+bool WordReader::peek_integers(std::span<std::int64_t> values, IntegerLine& line) const {
+  constexpr std::size_t k_longest_word = 8;  // with what follows it
+  Ahead ahead;
+  if (!look_ahead(k_longest_word * (values.size() + 1), ahead) || ahead.lines == 0) return false;
+  const char* p = data_ + ahead.at;
+  const char* const line_start = data_ + (ahead.line_start - consumed_);
+  line.line = line_ + ahead.lines;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const EightDigits digits(p);
+    if (digits.count == 0 || digits.count == 8) return false;
+    if (p[digits.count] != (i + 1 < values.size() ? ' ' : '\n')) return false;
+    values[i] = static_cast<std::int64_t>(digits.value);
+    line.columns[i] = static_cast<std::uint32_t>(p - line_start);
+    p += digits.count + 1;
+  }
+  line.end = p - 1;  // at the end of the line, as behind any other word
+  line.lines = ahead.lines, line.line_start = ahead.line_start;
+  return true;
+}
+
+void WordReader::take(const IntegerLine& line) {
+  go_to(line.end, {0, line.lines, line.line_start});
+}
+
 Diagnostic WordReader::diagnostic(Severity severity, const Word& word, std::string message,
                                   std::string hint) const {
   Diagnostic d;

@@ -2,8 +2,10 @@
 // Words of a text file with their positions, read block by block: memory does not grow with the file.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -46,6 +48,25 @@ class WordReader {
   bool next_decimal(double& value);
   /// The same for a whole number lowest .. highest of at most nine digits without a sign.
   bool next_count(std::int64_t lowest, std::int64_t highest, std::int64_t& value);
+  /// A line that peek_integers() has found, and where its words stand. Valid until the reader moves.
+  struct IntegerLine {
+    static constexpr std::size_t k_most = 8;
+    std::array<std::uint32_t, k_most> columns{};  ///< from 0
+    std::uint64_t line = 0, line_start = 0;
+    std::uint64_t lines = 0;    ///< that end before it
+    const char* end = nullptr;  ///< where its last word ends
+
+    /// Word i, without its text.
+    Word place(std::size_t i) const {
+      return {{}, line, columns[i] + std::uint64_t{1}, line_start + columns[i]};
+    }
+  };
+  /// The next line, if it certainly is nothing but values.size() <= k_most integers of one to seven digits,
+  /// one blank between them, and the reader stands behind the last word of the line before. Nothing is read.
+  /// False in every other case, also where this way cannot tell: then next() decides.
+  bool peek_integers(std::span<std::int64_t> values, IntegerLine& line) const;
+  /// Goes behind the last word of a line just peeked at.
+  void take(const IntegerLine& line);
   /// A second character that starts a comment where a word could start ('%' in the AFF dialect), 0 for none.
   void set_second_comment_character(char c) { second_comment_ = c; }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdint>
 #include <span>
@@ -68,12 +69,22 @@ bool is_integer(std::string_view text) {
 /// The integers of a flat file line by line, one word ahead. Every failure is reported and ends in Rejected.
 class LineReader {
  public:
-  LineReader(WordReader& words, DiagnosticSink& diagnostics) : words_(words), diagnostics_(diagnostics) {
-    advance();
+  LineReader(WordReader& words, DiagnosticSink& diagnostics, bool plain)
+      : words_(words), diagnostics_(diagnostics), plain_(plain) {}
+
+  /// The short way to the next line where that is plain integers: their values and places. The line is read
+  /// only by take(); otherwise begin_line() starts it.
+  bool peek(std::span<std::int64_t> values, WordReader::IntegerLine& line) const {
+    return !plain_ && !at_hand_ && words_.peek_integers(values, line);
+  }
+  void take(const WordReader::IntegerLine& line) {
+    words_.take(line);
+    last_.line = line.line;
   }
 
   /// Starts the next line, `number` of announced.count where there are several of its kind.
   void begin_line(const LineKind& kind, const Announcement& announced = {}, std::int64_t number = 0) {
+    look();
     if (last_.line > 0) expect_line_ended();
     line_ = kind, announced_ = announced, number_ = number;
     integers_read_ = 0;
@@ -82,6 +93,7 @@ class LineReader {
 
   /// The next integer of the line, low <= value <= high.
   std::int64_t integer(const char* name, std::int64_t low, std::int64_t high) {
+    look();
     if (integers_read_ > 0 && !more_on_line()) reject_short_line();
     const char* const text = word_.text.data();
     const char* const text_end = text + word_.text.size();
@@ -90,11 +102,16 @@ class LineReader {
     const bool plain = end == text_end && error == std::errc() && *text != '-';
     if (!plain || value < low || value > high) reject_value(name, low, high);
     ++integers_read_;
-    advance();
+    // Without the text, which next() overwrites.
+    last_.line = word_.line, last_.column = word_.column, last_.offset = word_.offset;
+    at_hand_ = false;
     return value;
   }
 
-  bool more_on_line() const { return !at_end_ && word_.line == last_.line; }
+  bool more_on_line() {
+    look();
+    return !at_end_ && word_.line == last_.line;
+  }
 
   /// Where the integer stood that integer() returned last; its text is gone.
   const Word& last() const { return last_; }
@@ -128,11 +145,11 @@ class LineReader {
   }
 
  private:
-  void advance() {
-    // Without the text, which next() overwrites anyway. Copying the whole word costs a third or more of the
-    // time of reading a file (gcc 12).
-    last_.line = word_.line, last_.column = word_.column, last_.offset = word_.offset;
+  /// Makes the next word the one at hand, if it is not yet.
+  void look() {
+    if (at_hand_) return;
     at_end_ = !words_.next(word_);
+    at_hand_ = true;
   }
 
   void expect_line_ended() {
@@ -172,7 +189,9 @@ class LineReader {
 
   WordReader& words_;
   DiagnosticSink& diagnostics_;
+  bool plain_;
   Word word_, last_;
+  bool at_hand_ = false;  ///< word_ is the next word; else the reader stands behind the last one
   bool at_end_ = false;
   LineKind line_ = k_resolution_line;
   Announcement announced_;
@@ -184,7 +203,7 @@ class FlatParser {
  public:
   FlatParser(WordReader& words, DiagnosticSink& diagnostics, ScreenPolygonSink& sink,
              const FlatReadOptions& options)
-      : lines_(words, diagnostics),
+      : lines_(words, diagnostics, options.plain),
         sink_(sink),
         options_(options),
         turn_(options.y_down && !options.keep_rows) {}
@@ -230,28 +249,53 @@ class FlatParser {
   }
 
   void read_separator(const Announcement& announced) {
+    std::array<std::int64_t, 1> value;
+    if (lines_.peek(value, peeked_) && value[0] == k_flat_separator) return lines_.take(peeked_);
     lines_.begin_line(k_separator_line, announced);
     lines_.integer("the separator", k_flat_separator, k_flat_separator);
   }
 
-  void read_polygon(const Announcement& polygons, std::int64_t number) {
+  /// The first line of a polygon, with the places of what may turn out to be wrong.
+  struct PolygonHead {
+    std::int64_t vertices = 0, y_highest = 0, y_lowest = 0;
+    Word y_highest_place, y_lowest_place;
+    std::uint64_t line = 0;
+  };
+
+  PolygonHead read_head(const Announcement& polygons, std::int64_t number) {
+    std::array<std::int64_t, 3> values;
+    if (lines_.peek(values, peeked_)) {
+      const auto [n, y_highest, y_lowest] = values;
+      if (n >= 3 && n <= k_max_polygon_vertices && y_highest <= y_max_ && y_lowest <= y_max_) {
+        lines_.take(peeked_);
+        return {n, y_highest, y_lowest, peeked_.place(1), peeked_.place(2), peeked_.line};
+      }
+    }
     lines_.begin_line(k_polygon_line, polygons, number);
     const std::int64_t n = lines_.integer("the number of vertices", 3, k_max_polygon_vertices);
     if (n == k_flat_end_mark && !lines_.more_on_line()) {
       lines_.reject(lines_.last(), fmt::format("found the end mark, expected {}", lines_.expected_line()),
                     lines_.announcement());
     }
-    const Announcement vertices{lines_.last().line, n, "vertices"};
-    const std::int64_t y_highest = lines_.integer("ymax", 0, y_max_);
-    const Word y_highest_word = lines_.last();
-    const std::int64_t y_lowest = lines_.integer("ymin", 0, y_max_);
-    const Word y_lowest_word = lines_.last();
+    PolygonHead head;
+    head.vertices = n;
+    head.line = lines_.last().line;
+    head.y_highest = lines_.integer("ymax", 0, y_max_);
+    head.y_highest_place = lines_.last();
+    head.y_lowest = lines_.integer("ymin", 0, y_max_);
+    head.y_lowest_place = lines_.last();
+    return head;
+  }
 
+  void read_polygon(const Announcement& polygons, std::int64_t number) {
+    const PolygonHead head = read_head(polygons, number);
+    const std::int64_t n = head.vertices;
+    const Announcement vertices{head.line, n, "vertices"};
     const std::size_t first = batch_.vertices.size();
     for (std::int64_t i = 1; i <= n; ++i) batch_.vertices.push_back(read_vertex(vertices, i));
     read_separator(vertices);
     const std::span<const ScreenVertex> corners = std::span(batch_.vertices).subspan(first);
-    expect_extent(corners, y_highest, y_highest_word, y_lowest, y_lowest_word);
+    expect_extent(corners, head);
     // Clockwise on the screen; numbers that count down turn the sign.
     const WideInteger area = twice_signed_area(corners);
     const bool back_facing = options_.y_down && !turn_ ? area > 0 : area < 0;
@@ -260,6 +304,23 @@ class FlatParser {
   }
 
   ScreenVertex read_vertex(const Announcement& vertices, std::int64_t number) {
+    std::array<std::int64_t, 6> values;
+    if (lines_.peek(values, peeked_)) {
+      const auto [x, y, z, r, g, b] = values;
+      const std::int64_t color_top = color_max_ + 1;
+      if (x <= x_max_ && y <= y_max_ && z <= z_max_ && r <= color_top && g <= color_top && b <= color_top) {
+        lines_.take(peeked_);
+        const auto color = [&](std::int64_t c) {
+          return static_cast<std::uint16_t>(std::min(c, color_max_));
+        };
+        return {static_cast<std::int32_t>(x),
+                static_cast<std::int32_t>(turned(y)),
+                static_cast<std::int32_t>(z),
+                color(r),
+                color(g),
+                color(b)};
+      }
+    }
     lines_.begin_line(k_vertex_line, vertices, number);
     ScreenVertex v;
     v.x = static_cast<std::int32_t>(lines_.integer("x", 0, x_max_));
@@ -278,14 +339,13 @@ class FlatParser {
   /// Between the file's y and the one handed on, either way.
   std::int64_t turned(std::int64_t y) const { return turn_ ? y_max_ - y : y; }
 
-  void expect_extent(std::span<const ScreenVertex> corners, std::int64_t y_highest,
-                     const Word& y_highest_word, std::int64_t y_lowest, const Word& y_lowest_word) {
+  void expect_extent(std::span<const ScreenVertex> corners, const PolygonHead& head) {
     const auto by_y = [this](const ScreenVertex& a, const ScreenVertex& b) {
       return turned(a.y) < turned(b.y);
     };
     const auto [low, high] = std::minmax_element(corners.begin(), corners.end(), by_y);
-    expect_bound("ymax", "largest", y_highest, turned(high->y), corners.size(), y_highest_word);
-    expect_bound("ymin", "smallest", y_lowest, turned(low->y), corners.size(), y_lowest_word);
+    expect_bound("ymax", "largest", head.y_highest, turned(high->y), corners.size(), head.y_highest_place);
+    expect_bound("ymin", "smallest", head.y_lowest, turned(low->y), corners.size(), head.y_lowest_place);
   }
 
   void expect_bound(const char* name, const char* which, std::int64_t found, std::int64_t expected,
@@ -316,6 +376,7 @@ class FlatParser {
   LineReader lines_;
   ScreenPolygonSink& sink_;
   const FlatReadOptions& options_;
+  WordReader::IntegerLine peeked_;
   bool turn_;  ///< rows are turned y up
   std::int64_t x_max_ = 0, y_max_ = 0, z_max_ = 0, color_max_ = 0;
   ScreenPolygonBatch batch_;

@@ -10,6 +10,7 @@
 namespace farop {
 
 struct FlatReadOptions {
+  bool plain = false;  ///< the plain way through numbers alone: same polygons, same messages; for comparison
   /// The numbers of the file count rows from the top (a flat file does not say so itself).
   bool y_down = false;
   /// Under y_down: hands on rows as the file counts them, in a frame that says so, instead of turning them y

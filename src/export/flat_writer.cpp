@@ -22,8 +22,8 @@ namespace farop {
 namespace {
 
 constexpr std::size_t k_block = std::size_t{1} << 18;
-/// Six integers of at most 20 characters, each with the character behind it.
-constexpr std::size_t k_longest_line = 6 * (20 + 1);
+/// Six integers of at most 20 characters, each with the character behind it, and what append() writes beyond.
+constexpr std::size_t k_longest_line = 6 * (20 + 1) + 8;
 
 /// Most numbers of a flat file are colours and coordinates below 2048. Copying their digits instead of
 /// dividing writes a whole file 1.7 to 2.2 times as fast.
@@ -39,6 +39,36 @@ const std::array<SmallNumber, 2048> k_small_numbers = [] {
   }
   return numbers;
 }();
+
+/// 0 to 999 with three digits each: the lower half of numbers that are somewhat larger, mostly depths.
+const std::array<std::array<char, 4>, 1000> k_three_digits = [] {
+  std::array<std::array<char, 4>, 1000> groups{};
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    groups[i] = {static_cast<char>('0' + i / 100), static_cast<char>('0' + i / 10 % 10),
+                 static_cast<char>('0' + i % 10), ' '};
+  }
+  return groups;
+}();
+
+/// Writes `value` and what follows it; returns the place behind. At most 21 characters, room for 8 always.
+char* append(char* at, std::int64_t value, char separator) {
+  if (static_cast<std::uint64_t>(value) < k_small_numbers.size()) {
+    const SmallNumber& number = k_small_numbers[static_cast<std::size_t>(value)];
+    std::memcpy(at, &number, sizeof number);
+    at += number.length;
+  } else if (static_cast<std::uint64_t>(value) < 1000 * k_small_numbers.size()) {
+    const auto whole = static_cast<std::uint64_t>(value), thousands = whole / 1000, rest = whole % 1000;
+    const SmallNumber& number = k_small_numbers[thousands];
+    std::memcpy(at, &number, sizeof number);
+    at += number.length;
+    std::memcpy(at, k_three_digits[rest].data(), 4);
+    at += 3;
+  } else {
+    at = std::to_chars(at, at + 20, value).ptr;
+  }
+  *at = separator;
+  return at + 1;
+}
 
 [[noreturn]] void throw_temporary_failure(const std::string& folder, int error_number) {
   throw Error(ExitStatus::surroundings,
@@ -95,46 +125,32 @@ void FlatWriter::polygons(const ScreenPolygonBatch& batch) {
     const auto corners = batch.corners(polygon);
     const auto by_y = [](const ScreenVertex& a, const ScreenVertex& b) { return a.y < b.y; };
     const auto [lowest, highest] = std::minmax_element(corners.begin(), corners.end(), by_y);
-    make_room_for_line();
-    put(polygon.vertex_count, ' ');
-    put(highest->y, ' ');
-    put(lowest->y, '\n');
-    for (const ScreenVertex& v : corners) {
-      make_room_for_line();
-      put(v.x, ' ');
-      put(v.y, ' ');
-      put(v.z, ' ');
-      put(v.r, ' ');
-      put(v.g, ' ');
-      put(v.b, '\n');
-    }
-    make_room_for_line();
-    put(k_flat_separator, '\n');
+    put_line(polygon.vertex_count, highest->y, lowest->y);
+    for (const ScreenVertex& v : corners) put_line(v.x, v.y, v.z, v.r, v.g, v.b);
+    put_line(k_flat_separator);
   }
   polygon_count_ += batch.polygons.size();
 }
 
 void FlatWriter::end_frame() {
-  make_room_for_line();
-  put(k_flat_end_mark, '\n');
+  put_line(k_flat_end_mark);
   flush();
   fill_in_count();
   if (collected_) copy_collected();
 }
 
-// Needs room: see make_room_for_line().
 void FlatWriter::put(std::int64_t value, char separator) {
-  char* const at = block_.get() + used_;
-  char* end = at;
-  if (value >= 0 && value < static_cast<std::int64_t>(k_small_numbers.size())) {
-    const SmallNumber& number = k_small_numbers[static_cast<std::size_t>(value)];
-    std::memcpy(at, number.digits, sizeof number.digits);
-    end += number.length;
-  } else {
-    end = std::to_chars(at, block_.get() + k_block, value).ptr;
-  }
-  *end = separator;
-  used_ += static_cast<std::size_t>(end - at) + 1;
+  used_ = static_cast<std::size_t>(append(block_.get() + used_, value, separator) - block_.get());
+}
+
+template <class... Integers>
+void FlatWriter::put_line(Integers... values) {
+  static_assert(sizeof...(values) <= 6);
+  make_room_for_line();
+  char* at = block_.get() + used_;
+  ((at = append(at, values, ' ')), ...);
+  at[-1] = '\n';
+  used_ = static_cast<std::size_t>(at - block_.get());
 }
 
 void FlatWriter::make_room_for_line() {

@@ -38,6 +38,8 @@ class FlatWriter : public ScreenPolygonSink {
   };
 
   void put(std::int64_t value, char separator);
+  template <class... Integers>
+  void put_line(Integers... values);
   void make_room_for_line();
   void flush();
   void fill_in_count();

@@ -137,6 +137,28 @@ void flat_writing(benchmark::State& state, const SceneName& name) {
   state.counters["MB/s"] = Counter(static_cast<double>(bytes) * 1e-6, k_rate);
 }
 
+void flat_reading(benchmark::State& state, const SceneName& name) {
+  const Prepared p = prepare(name, false, For::flat_file);
+  const std::string path = "stages_bench_read.scr";
+  {
+    OutputFile file(path);
+    FlatWriter writer(file);
+    GeometryClocks clocks;
+    run_geometry(p.scene, p.setup, p.options, writer, clocks);
+    file.commit();
+  }
+  std::uint64_t bytes = 0;
+  for (auto _ : state) {
+    WordReader reader(path);
+    DiagnosticList messages;
+    Nothing nothing;
+    if (!read_flat(reader, messages, nothing)) state.SkipWithError("the file cannot be read");
+    bytes = reader.bytes_read();
+  }
+  std::remove(path.c_str());
+  state.counters["MB/s"] = Counter(static_cast<double>(bytes) * 1e-6, k_rate);
+}
+
 void rasterizing(benchmark::State& state, const SceneName& name) {
   const Prepared p = prepare(name, true, For::picture);
   Tape tape;
@@ -164,6 +186,7 @@ int main(int argc, char** argv) {
     add("parse", parsing);
     add("geometry", geometry);
     add("flat_write", flat_writing);
+    add("flat_read", flat_reading);
     add("raster", rasterizing);
   }
   benchmark::Initialize(&argc, argv);

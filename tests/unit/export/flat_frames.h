@@ -18,6 +18,7 @@ namespace farop::test {
 struct FlatPolygon {
   std::vector<ScreenVertex> vertices;
   bool back_facing = false;
+  friend bool operator==(const FlatPolygon&, const FlatPolygon&) = default;
 };
 
 /// Keeps everything it is given.
@@ -47,15 +48,39 @@ struct FlatResult {
   std::vector<Diagnostic> errors;
 };
 
-inline FlatResult read_flat_text(std::string_view text, bool y_down = false) {
+inline FlatResult read_flat_only(std::string_view text, bool y_down, bool plain) {
   FlatResult result;
   WordReader words(text, "test.scr");
   DiagnosticList diagnostics;
   FlatReadOptions options;
   options.y_down = y_down;
+  options.plain = plain;
   result.ok = read_flat(words, diagnostics, result.frame, options);
   result.errors = std::move(diagnostics.items);
   return result;
+}
+
+/// The short way through plain lines must not show: same polygons, same messages at the same places. Blank
+/// lines behind the text let it be taken to the end.
+inline void expect_same_as_plain(std::string_view text, bool y_down) {
+  const std::string padded = std::string(text) + std::string(80, '\n');
+  const FlatResult fast = read_flat_only(padded, y_down, false), plain = read_flat_only(padded, y_down, true);
+  ASSERT_EQ(fast.ok, plain.ok) << text;
+  ASSERT_EQ(fast.frame.all, plain.frame.all) << text;
+  ASSERT_EQ(fast.errors.size(), plain.errors.size()) << text;
+  for (std::size_t i = 0; i < fast.errors.size(); ++i) {
+    const Diagnostic &a = fast.errors[i], &b = plain.errors[i];
+    ASSERT_EQ(a.message, b.message) << text;
+    ASSERT_EQ(a.hint, b.hint) << text;
+    ASSERT_EQ(a.excerpt, b.excerpt) << text;
+    ASSERT_EQ(a.where.line, b.where.line) << text;
+    ASSERT_EQ(a.where.column, b.where.column) << text;
+  }
+}
+
+inline FlatResult read_flat_text(std::string_view text, bool y_down = false) {
+  expect_same_as_plain(text, y_down);
+  return read_flat_only(text, y_down, false);
 }
 
 inline void write_flat(const std::string& path, const ScreenFrame& frame,
