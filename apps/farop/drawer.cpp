@@ -114,6 +114,8 @@ class IsolatedDrawer : public Drawer {
     };
     try {
       rasterizer_ = std::make_unique<IsolatedRasterizer>(what.library, isolation, drawing);
+      const std::string missing = missing_walls(rasterizer_->report().layers);
+      if (isolation.isolation != Isolation::off && !missing.empty()) console_.notice(missing);
     } catch (const PluginFailure& failure) {
       throw PluginFailure(printable(file, 4096), failure.finding());  // the script's name, not its adapter's
     }

@@ -223,6 +223,16 @@ std::optional<PluginFinding> finding_of_end(int wait_status, const Circumstances
   return finding;
 }
 
+PluginFinding finding_of_memory(const Circumstances& c) {
+  PluginFinding finding;
+  finding.fatal = true;
+  finding.verdict = "limit.memory";
+  finding.message = fmt::format("out of memory (limit {} MB): the kernel ended it ", c.memory_bytes >> 20) +
+                    where_text(c, &finding.polygon);
+  finding.hint = "free what is not needed any more";
+  return finding;
+}
+
 PluginFinding finding_of_time(bool cpu, double seconds, const Circumstances& c) {
   PluginFinding finding;
   finding.fatal = true;

@@ -27,6 +27,8 @@ struct Circumstances {
 
 /// Nothing: it was not the rasterizer's doing as far as we know (killed from outside).
 std::optional<PluginFinding> finding_of_end(int wait_status, const Circumstances& circumstances);
+/// For one that the kernel ended as its control group had no memory left.
+PluginFinding finding_of_memory(const Circumstances& circumstances);
 /// For a time limit.
 PluginFinding finding_of_time(bool cpu, double seconds, const Circumstances& circumstances);
 /// For a system call that was refused.

@@ -3,7 +3,9 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <signal.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -23,6 +25,7 @@
 #include <utility>
 
 #include "core/diagnostics.h"
+#include "isolate/control_group.h"
 #include "isolate/crash_words.h"
 #include "isolate/frame_memory.h"
 #include "isolate/layers.h"
@@ -167,6 +170,7 @@ class IsolatedRasterizer::Judge {
       }
     } catch (const Error&) {  // it was about to go anyway
     }
+    process_.reset();  // before its group
   }
 
   // ---- frames -------------------------------------------------------------------------------------------
@@ -332,6 +336,7 @@ class IsolatedRasterizer::Judge {
       drop_process();
       throw Error(ExitStatus::surroundings, "rasterizers cannot be loaded without /proc", "mount /proc");
     }
+    join_group(start.settings);
     process_->start_clocks(options_.limits);  // now that the runner is known
     Request load;
     load.kind = RequestKind::load;
@@ -345,6 +350,22 @@ class IsolatedRasterizer::Judge {
     create.kind = RequestKind::create;
     ask(create);
     while (!outstanding_.empty()) attend(true);
+  }
+
+  /// Before anything of the rasterizer is there.
+  void join_group(const Settings& settings) {
+    if (!wants_group(options_)) {
+      layers_.push_back(control_group_layer(false, "not asked for"));
+      return;
+    }
+    group_.emplace(ControlGroup::Limits{settings.memory_bytes, settings.threads}, options_.group_root);
+    const pid_t runner = process_->runner_pid();
+    if (group_->there() && runner > 0 && group_->add(runner)) {
+      layers_.push_back(control_group_layer(true, ""));
+      return;
+    }
+    layers_.push_back(control_group_layer(false, group_->why()));
+    group_.reset();
   }
 
   template <std::size_t Size>
@@ -514,6 +535,8 @@ class IsolatedRasterizer::Judge {
       if (!finding && refused.fatal) finding = refused;
     }
     const bool before_load = !hello_;
+    const bool was_killed = WIFSIGNALED(ended.wait_status) && WTERMSIG(ended.wait_status) == SIGKILL;
+    if (was_killed && group_ && group_->killed_for_memory() > 0) finding = finding_of_memory(c);
     drop_process();
     if (before_load) {
       throw Error(ExitStatus::internal,
@@ -586,6 +609,10 @@ class IsolatedRasterizer::Judge {
     out_ = process_->out().text;
     err_ = process_->err().text;
     process_.reset();
+    if (group_) {
+      peak_bytes_ = std::max(peak_bytes_, group_->peak_bytes().value_or(0));
+      group_.reset();
+    }
     has_frame_ = false;
   }
 
@@ -725,6 +752,7 @@ class IsolatedRasterizer::Judge {
   std::optional<Loaded> loaded_;
   PluginDescription description_;
   std::vector<IsolationLayer> layers_;
+  std::optional<ControlGroup> group_;
 
   std::optional<PolygonChunk> chunk_;
   std::deque<Outstanding> outstanding_;

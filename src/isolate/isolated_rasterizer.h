@@ -26,7 +26,7 @@ struct RunnerReport {
   double cpu = 0;      ///< of the runner's process, all threads
   std::uint64_t peak_bytes = 0;        ///< resident; 0 while it runs
   std::string out, err;                ///< what it printed, first 64 KiB each, safe to print
-  std::vector<IsolationLayer> layers;  ///< 0 and A to D: what stood
+  std::vector<IsolationLayer> layers;  ///< 0 and A to E: what stood
 };
 
 /// Mirrors PluginRasterizer: frames one after another, of the size of the samples, polygons by the hundred

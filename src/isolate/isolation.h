@@ -39,6 +39,7 @@ struct IsolationOptions {
   std::uint64_t seed = 1;  ///< of the random bytes around and between the rows
   PluginLog log;           ///< lines that the rasterizer logs, safe to print
   std::string without;     ///< layers not to use, by letter ("BC"): for tests of what the others do alone
+  std::string group_root;  ///< see ControlGroup: for tests, too
 };
 
 /// What a rasterizer did wrong: what ended a run, or spoiled it.
@@ -71,6 +72,10 @@ struct IsolationLayer {
   std::string why;     ///< why not; or what is special
   std::string how_to_enable;  ///< empty when it holds, or nothing can be done
 };
+
+/// A line for the user: which of the walls A to D are missing, and why. Empty: none. (Layer E is to be had in
+/// few places; `farop doctor` has it.)
+std::string missing_walls(const std::vector<IsolationLayer>& layers);
 
 /// Tries every layer with a harmless probe in a process of its own: for `farop doctor`. Throws
 /// Error(ExitStatus::surroundings) when the runner cannot be started at all.

@@ -10,6 +10,7 @@
 #include <optional>
 #include <system_error>
 
+#include "isolate/control_group.h"
 #include "isolate/runner_process.h"
 
 namespace farop {
@@ -50,6 +51,10 @@ std::uint32_t wanted_layers(const IsolationOptions& options) {
     if (letter >= 'A' && letter < 'A' + k_layer_count) layers &= ~(1u << (letter - 'A'));
   }
   return layers;
+}
+
+bool wants_group(const IsolationOptions& options) {
+  return options.isolation != Isolation::off && options.without.find('E') == std::string::npos;
 }
 
 std::vector<IsolationLayer> layers_of(const Hello& hello, std::uint32_t asked) {
@@ -94,6 +99,17 @@ std::string find_runner() {
       fmt::format("expected ../libexec/farop/farop-runner beside {}; reinstall farop", folder.string()));
 }
 
+std::string missing_walls(const std::vector<IsolationLayer>& layers) {
+  std::string text;
+  for (const IsolationLayer& layer : layers) {
+    const char letter = layer.id.front();
+    if (layer.holds || letter < 'A' || letter > 'D') continue;
+    text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", layer.id, layer.why);
+  }
+  if (text.empty()) return text;
+  return fmt::format("walls around rasterizers that are missing here: {}; `farop doctor` says more", text);
+}
+
 std::vector<IsolationLayer> probe_isolation(const std::string& runner) {
   const SharedMemory nothing("farop-probe", 4096);
   const SharedMemory box("farop-black-box", k_black_box_bytes);
@@ -129,7 +145,7 @@ std::vector<IsolationLayer> probe_isolation(const std::string& runner) {
     }
     layers.push_back(std::move(layer));
   }
-  layers.push_back({"E cgroup", false, "not used by this version", ""});
+  layers.push_back(probe_control_group());
   return layers;
 }
 

@@ -178,6 +178,12 @@ bool RunnerProcess::send(const Request& request, int memory) {
   }
 }
 
+pid_t RunnerProcess::runner_pid() {
+  const auto deadline = Clock::now() + milliseconds(1000);
+  while (runner_pid_ < 0 && warden_ && Clock::now() < deadline) poll_once(milliseconds(20));
+  return runner_pid_;
+}
+
 void RunnerProcess::loaded() {
   const char order = k_loaded;
   if (warden_) ::send(warden_.get(), &order, 1, MSG_NOSIGNAL);

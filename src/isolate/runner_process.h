@@ -73,6 +73,8 @@ class RunnerProcess {
   RunnerEnded end_gently();
 
   bool is_alive() const { return !ended_; }
+  /// As this process sees it. Waits for the warden to tell, a second at most; then -1.
+  pid_t runner_pid();
   /// Refused system calls, a kind at a time, since the last call of this.
   std::vector<WardenMessage> take_refusals() { return std::exchange(refusals_, {}); }
   const Output& out() const { return out_; }

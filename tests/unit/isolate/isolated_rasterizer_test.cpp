@@ -99,7 +99,7 @@ TEST(IsolatedRasterizer, ReportsTimesOfBothSides) {
   // Counters are opened before the walls stand, or not at all.
   EXPECT_EQ(report.runner.polygon.cycles.has_value(), HardwareCounters::of_process().cycles.error() == 0);
   EXPECT_GT(report.cpu, 0);
-  ASSERT_EQ(report.layers.size(), 5u);
+  ASSERT_EQ(report.layers.size(), 6u);
   EXPECT_EQ(report.layers[0].id, "0 process");
   EXPECT_TRUE(report.layers[0].holds);
 }
