@@ -10,6 +10,8 @@
 
 namespace farop {
 
+class NoiseTable;
+
 /// Point: at a place, as strong far away as near. Directional: infinitely far. Spots: point lights with a
 /// cone; a sharp one is equally strong inside it, a soft one fades from the axis to nothing at the border.
 enum class LightKind { point, directional, spot_sharp, spot_soft };
@@ -45,8 +47,9 @@ Illumination illuminate(const LightSource& light, const V3d& point);
 
 /// What shaders of a frame share. Eye space: origin at the eye, x right, y up, z along the view direction.
 struct ShadingFrame {
-  std::vector<LightSource> lights;  ///< eye space; inactive ones are left out
-  M44d eye_to_world;                ///< row vectors; for shaders that speak of the world
+  std::vector<LightSource> lights;                    ///< eye space; inactive ones are left out
+  M44d eye_to_world;                                  ///< row vectors; for shaders that speak of the world
+  std::shared_ptr<const NoiseTable> noise = nullptr;  ///< of patterns; nullptr: standard_noise()
 };
 
 }  // namespace farop
