@@ -205,6 +205,7 @@ class Stage {
   }
 
   Shaded light(const Surface& surface, const EyeVertex& vertex) const {
+    if (options_.unlit) return {};
     return shade(surface.shader.get(), surface.material, vertex.position, vertex.normal, vertex.texture,
                  setup_.shading);
   }

@@ -25,6 +25,7 @@ struct GeometryOptions {
   bool flat = false;           ///< the colour of a polygon's first stored vertex for all of it
   double light_intensity = 1;  ///< of a light without a colour
   bool light_at_eye = true;    ///< a white light at the eye for a scene without lights
+  bool unlit = false;          ///< black instead of lighting: where depths alone count
 };
 
 /// The fixed part of a frame: where the eye is and what the frustum is mapped to.

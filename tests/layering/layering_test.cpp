@@ -25,6 +25,7 @@ const std::map<std::string, Rooms> k_may_include = {
     {"geometry", {"core", "shading", "scene"}},
     {"solids", {"core", "scene", "geometry"}},
     {"raster", {"core", "shading"}},
+    {"shadow", {"core", "shading", "scene", "geometry", "raster"}},
     {"plugin", {"core", "shading"}},
     {"isolate", {"core", "shading", "plugin"}},
     {"export", {"core", "shading", "scene"}},
