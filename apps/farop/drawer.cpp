@@ -208,6 +208,7 @@ std::unique_ptr<Drawer> make_drawer(Session& session, const ChosenRasterizer& ra
       internal.samples = options.samples;
       internal.background = options.background;
       internal.keep_depth = options.keep_depth;
+      internal.additive_transparency = options.additive_transparency;
       internal.shading = options.shading;
       return std::make_unique<InternalDrawer>(std::move(internal));
     }

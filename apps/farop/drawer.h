@@ -36,6 +36,7 @@ struct DrawerOptions {
   int samples = 1;
   Rgb background;
   bool keep_depth = false;
+  bool additive_transparency = false;  ///< SIPP's; the internal rasterizer's
   ShadingFrame shading;
 };
 

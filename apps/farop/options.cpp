@@ -113,6 +113,13 @@ void add_light_option(CLI::App& command, SceneOptions& options) {
       ->group("Geometry");
 }
 
+void add_side_option(CLI::App& command, SceneOptions& options) {
+  command
+      .add_flag("--two-sided,!--one-sided", options.two_sided,
+                "keep polygons that face away, or not [the scene's, else not]")
+      ->group("Geometry");
+}
+
 void add_scene_options(CLI::App& command, SceneOptions& options) {
   command.add_flag("--triangles", options.triangles, "split polygons into triangles")->group("Geometry");
   command.add_option("--normals", options.normals, "where none are given: face, or shared = averaged [auto]")
@@ -246,6 +253,20 @@ DrawMode draw_mode(const std::string& mode) {
   if (mode == "flat") return DrawMode::flat;
   if (mode == "phong") return DrawMode::phong;
   return DrawMode::gouraud;
+}
+
+const char* name_of(DrawMode mode) {
+  switch (mode) {
+    case DrawMode::line:
+      return "line";
+    case DrawMode::flat:
+      return "flat";
+    case DrawMode::gouraud:
+      return "gouraud";
+    case DrawMode::phong:
+      break;
+  }
+  return "phong";
 }
 
 std::vector<std::string> join_open_lists(std::vector<std::string> arguments) {

@@ -34,7 +34,7 @@ struct ViewOptions {
 };
 
 struct SceneOptions {
-  bool two_sided = false;
+  std::optional<bool> two_sided;  ///< not given: the scene's
   bool triangles = false;
   std::string normals = "auto";
   std::string detail = "auto";
@@ -42,8 +42,8 @@ struct SceneOptions {
 };
 
 struct DrawingOptions {
-  std::string mode = "gouraud";
-  int samples = 1;
+  std::string mode;  ///< empty, as samples: the scene's
+  std::optional<int> samples;
   std::string depth_file;
 };
 
@@ -65,6 +65,7 @@ void add_camera_options(CLI::App& command, ViewOptions& options);
 void add_view_options(CLI::App& command, ViewOptions& options);
 void add_scene_options(CLI::App& command, SceneOptions& options);
 void add_light_option(CLI::App& command, SceneOptions& options);
+void add_side_option(CLI::App& command, SceneOptions& options);
 
 /// Parses "WxH", "X,Y", "X,Y,Z" or "X,Y,Z,C" (also separated by 'x' or blanks). Throws Error(usage) with the
 /// limits.
@@ -84,6 +85,8 @@ std::optional<int> detail_resolution(const SceneOptions& options);
 /// Intensity of a light without a colour among `lights` lights: 1/sqrt(lights), 1, or the given number.
 double light_intensity(const SceneOptions& options, std::size_t lights);
 DrawMode draw_mode(const std::string& mode);
+/// The word for a mode.
+const char* name_of(DrawMode mode);
 
 /// Joins the words of list-valued options whose length is open, so that an input may follow them:
 /// `--resolution 512 512 512 128 a.nff` -> `--resolution=512,512,512,128 a.nff`, `--tessellate 3` ->

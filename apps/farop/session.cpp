@@ -10,6 +10,9 @@
 #include "scene/merge.h"
 #include "scene/plane.h"
 #include "scene/traverse.h"
+#include "scene_notes.h"
+#include "shading/noise.h"
+#include "shadow/shadow_map.h"
 #include "stats.h"
 
 namespace farop::app {
@@ -31,24 +34,6 @@ void check_format(const std::string& file, const InputOptions& options) {
   throw Error(ExitStatus::usage,
               fmt::format("{}: the suffix does not tell the format, expected .nff", printable(file, 200)),
               "say --format nff if that is what it is");
-}
-
-void log_scene(Console& console, const Scene& scene) {
-  if (!console.verbose()) return;
-  if (scene.view.background) console.log("NFF background loaded");
-  if (scene.view.from) console.log("NFF view parameters loaded");
-  for (const Light& light : scene.lights) {
-    const Rgb c = light.color.value_or(Rgb{1, 1, 1});
-    const V3d& p = light.position;
-    console.log("NFF light loaded ({:.2f} {:.2f} {:.2f}) ({:.2f} {:.2f} {:.2f})", p.x, p.y, p.z, c.r, c.g,
-                c.b);
-  }
-  for_each_surface(scene, [&](const SurfacePlacement& placement) {
-    const Surface& s = placement.surface;
-    const Material& m = s.material;
-    console.log("NFF surface with {} polygons ({:.2f},{:.2f},{:.2f},{:g},{:.2f},{:.2f},{:.2f})",
-                s.polygons.size(), m.ka, m.ks, m.kd, m.shine, m.color.r, m.color.g, m.color.b);
-  });
 }
 
 void log_time(Console& console, const StageTime& t) {
@@ -115,6 +100,13 @@ void average_all_normals(Object& object) {
     if (surface->averaged_normals.empty()) average_normals(*surface);
   }
   for (const auto& child : object.children) average_all_normals(*child);
+}
+
+/// SIPP takes the numbers of shadows and of noise from one sequence, shadows first.
+void add_shadows(const Scene& scene, GeometrySetup& setup) {
+  Rand48 random;
+  const auto next = [&random] { return random.next(); };
+  if (cast_shadows(scene, setup, next) > 0) setup.shading.noise = std::make_shared<const NoiseTable>(next);
 }
 
 std::string plural(std::uint64_t n, std::string_view noun) {
@@ -186,12 +178,16 @@ std::optional<LoadedView> finish_loading(Session& session, const ViewOptions& op
 
 GeometryOptions geometry_options(Session& session, const SceneOptions& options, bool flat) {
   GeometryOptions geometry;
-  geometry.two_sided = options.two_sided;
+  geometry.two_sided = options.two_sided.value_or(session.scene.drawing.two_sided.value_or(false));
   geometry.triangles = options.triangles;
   geometry.flat = flat;
   geometry.light_intensity = light_intensity(options, session.scene.lights.size());
-  if (session.scene.lights.empty())
-    session.console.notice("the scene has no light: a white one at the eye is used");
+  geometry.light_at_eye = !any_sipp(session.scene);
+  if (session.scene.lights.empty()) {
+    session.console.notice(geometry.light_at_eye
+                               ? "the scene has no light: a white one at the eye is used"
+                               : "the scene has no light: the ambient term alone is left, as SIPP has it");
+  }
   return geometry;
 }
 
@@ -201,6 +197,7 @@ void prepare_drawing(Session& session, const LoadedView& view, const GeometryOpt
   sampled.resolution.x *= samples;
   sampled.resolution.y *= samples;
   session.report.setup = prepare_geometry(session.scene, view.camera, sampled, options);
+  if (!options.unlit) add_shadows(session.scene, *session.report.setup);
   session.report.picture = view.viewport.resolution;
 }
 
@@ -214,6 +211,8 @@ void draw(Session& session, const GeometryOptions& options, ScreenPolygonSink& s
   const SceneTotals sums = totals(scene);
   console.log("Objects loaded: {}\nSurfaces loaded: {}\nPolygons loaded: {}", sums.objects, sums.surfaces,
               sums.polygons);
+  const bool per_pixel = sink.wants().textures;
+  if (!per_pixel && !options.unlit) note_lost_patterns(console, scene);
   console.log("Creating render data, wait...\nTimer started");
   session.report.geometry =
       run_geometry(scene, setup, options, sink, session.clocks.drawing, console.progress("drawing"));

@@ -8,6 +8,7 @@
 #include "core/output_file.h"
 #include "scene/bounds.h"
 #include "scene/traverse.h"
+#include "scene_notes.h"
 #include "session.h"
 #include "version.h"
 
@@ -65,6 +66,7 @@ Json scene_json(const Scene& scene) {
             {"spheres_skipped", scene.spheres_skipped},
             {"cones_skipped", scene.cones_skipped}};
   if (const auto box = world_bounds(scene)) json["bounds"] = {to_json(box->low), to_json(box->high)};
+  for (const auto& [kind, count] : shader_counts(scene)) json["shaders"][kind] = count;
   json["background"] = to_json(scene.view.background.value_or(Rgb{}));
   json["memory_bytes"] = sums.memory_bytes;
   return json;

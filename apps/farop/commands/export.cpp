@@ -4,6 +4,7 @@
 #include "command_line.h"
 #include "core/output_file.h"
 #include "export/flat_writer.h"
+#include "scene_notes.h"
 #include "session.h"
 
 namespace farop::app {
@@ -14,14 +15,15 @@ struct ExportOptions {
   std::string output;
   ViewOptions view;
   SceneOptions scene;
-  std::string mode = "gouraud";
+  std::string mode;  ///< empty: the scene's
 };
 
 void run(Session& session, const ExportOptions& options) {
   const std::string output = output_path(options.output, options.input.files, ".scr");
   load_inputs(session, options.input);
   const LoadedView view = *finish_loading(session, options.view, options.scene, Viewport{}, 1, true);
-  const GeometryOptions geometry = geometry_options(session, options.scene, options.mode == "flat");
+  const bool flat = drawing_mode(session.console, options.mode, session.scene, false) == DrawMode::flat;
+  const GeometryOptions geometry = geometry_options(session, options.scene, flat);
   prepare_drawing(session, view, geometry, 1);
   session.report.sink_writes = true;
   session.console.log("Flat file to be created: '{}'", output);
@@ -47,10 +49,11 @@ void add_export(CommandLine& line) {
   add_output_option(command, options->output, "flat file; - is standard output [IN.scr]");
   add_view_options(command, options->view);
   add_scene_options(command, options->scene);
-  command.add_flag("--two-sided", options->scene.two_sided, "keep polygons that face away")
-      ->group("Geometry");
+  add_side_option(command, options->scene);
   add_light_option(command, options->scene);
-  command.add_option("--mode", options->mode, "flat: one vertex's colour for the whole polygon [gouraud]")
+  command
+      .add_option("--mode", options->mode,
+                  "flat: one vertex's colour for the whole polygon [the scene's, else gouraud]")
       ->check(CLI::IsMember({"flat", "gouraud"}))
       ->type_name("flat|gouraud")
       ->group("Drawing");

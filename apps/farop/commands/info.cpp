@@ -5,6 +5,7 @@
 #include "core/output_file.h"
 #include "scene/bounds.h"
 #include "scene/traverse.h"
+#include "scene_notes.h"
 #include "session.h"
 
 namespace farop::app {
@@ -51,7 +52,7 @@ void tree_text(const Object& object, int depth, std::string& out) {
     for (const CurvedPrimitive& c : s->curved) spheres += c.kind == CurvedPrimitive::Kind::sphere ? 1 : 0;
     out += fmt::format("{}  surface: {} vertices, {} polygons, {} spheres, {} cones  {}\n", indent,
                        s->positions.size(), s->polygons.size(), spheres, s->curved.size() - spheres,
-                       material_text(s->material));
+                       s->shader != nullptr ? s->shader->describe() : material_text(s->material));
   }
   for (const auto& child : object.children) tree_text(*child, depth + 1, out);
 }
@@ -78,6 +79,10 @@ void run(Session& session, const InfoOptions& options) {
   }
   out += view_text(scene.view);
   for (const Light& light : scene.lights) {
+    if (light.kind != LightKind::point || !light.active) {
+      out += fmt::format("light         {}\n", light_text(light));
+      continue;
+    }
     out += fmt::format("light         {}{}\n", text_of(light.position),
                        light.color ? "  color " + text_of(*light.color) : "");
   }

@@ -9,6 +9,7 @@
 #include "drawer.h"
 #include "picture_library.h"
 #include "repeat_file.h"
+#include "scene_notes.h"
 #include "session.h"
 
 namespace farop::app {
@@ -53,6 +54,16 @@ void check_sampled_size(RasterizerKind kind, const Resolution& r, int samples) {
               "use fewer --samples or a smaller --resolution");
 }
 
+/// The scene's own mode and samples, known now, count where no option does.
+void choose_mode(Session& session, const DrawingOptions& options, RasterizerKind kind,
+                 DrawerOptions& drawing) {
+  drawing.mode = drawing_mode(session.console, options.mode, session.scene, kind == RasterizerKind::internal);
+  drawing.samples = drawing_samples(options.samples, session.scene);
+  if (drawing.mode != DrawMode::line || drawing.samples == 1) return;
+  if (options.samples) session.console.notice("--samples is ignored in line mode");
+  drawing.samples = 1;
+}
+
 void run(Session& session, const RenderOptions& options) {
   const ChosenRasterizer chosen = choose_rasterizer(options.rasterizer);
   const bool null = chosen.kind == RasterizerKind::null;
@@ -69,27 +80,26 @@ void run(Session& session, const RenderOptions& options) {
     picture_library().check_depth_path(output_path(options.drawing.depth_file, options.input.files, ""));
   }
   if (!null) check_picture_path(output);
-  drawing.samples = options.drawing.samples;
-  if (drawing.mode == DrawMode::line && drawing.samples > 1) {
-    session.console.notice("--samples is ignored in line mode");
-    drawing.samples = 1;
-  }
 
   load_inputs(session, options.input);
+  choose_mode(session, options.drawing, chosen.kind, drawing);
   const LoadedView view = *finish_loading(session, options.view, options.scene,
                                           viewport_defaults(chosen.kind), drawing.samples, true);
   check_sampled_size(chosen.kind, view.viewport.resolution, drawing.samples);
   const bool flat = drawing.mode == DrawMode::flat;
-  const GeometryOptions geometry = geometry_options(session, options.scene, flat);
+  GeometryOptions geometry = geometry_options(session, options.scene, flat);
+  geometry.unlit = drawing.mode == DrawMode::line;
   prepare_drawing(session, view, geometry, drawing.samples);
   if (!null) session.console.log("Image file to be created: '{}'", output);
-  session.console.log("Render Mode: {}", options.drawing.mode);
+  const std::string mode = name_of(drawing.mode);
+  session.console.log("Render Mode: {}", mode);
   // The geometry stage gives a polygon one colour already.
   if (flat && chosen.kind != RasterizerKind::internal) drawing.mode = DrawMode::gouraud;
   drawing.background = session.scene.view.background.value_or(Rgb{});
+  drawing.additive_transparency = all_sipp(session.scene);
   drawing.shading = session.report.setup->shading;
   const std::unique_ptr<Drawer> drawer = make_drawer(session, chosen, options.rasterizer, drawing);
-  session.report.raster = {drawer->name(), options.drawing.mode, drawing.samples, {}, {}};
+  session.report.raster = {drawer->name(), mode, drawing.samples, {}, {}};
   std::optional<Framebuffer> picture;
   try {
     draw(session, geometry, drawer->sink());
@@ -112,13 +122,14 @@ void run(Session& session, const RenderOptions& options) {
 }
 
 void add_drawing_options(CLI::App& command, DrawingOptions& options) {
-  command.add_option("--mode", options.mode, "shading [gouraud]")
+  command.add_option("--mode", options.mode, "shading [the scene's, else gouraud]")
       ->check(CLI::IsMember({"line", "flat", "gouraud", "phong"}))
       ->type_name("line|flat|gouraud|phong")
       ->group("Drawing");
   command
-      .add_option("--samples", options.samples,
-                  fmt::format("super-sampling, A x A samples a pixel, 1..{} [1]", k_max_samples))
+      .add_option(
+          "--samples", options.samples,
+          fmt::format("super-sampling, A x A samples a pixel, 1..{} [the scene's, else 1]", k_max_samples))
       ->check(CLI::Range(1, k_max_samples))
       ->type_name("A")
       ->group("Drawing");
@@ -141,8 +152,7 @@ void add_render(CommandLine& line) {
                     "picture: ppm, png, exr, tif ...; - is standard output [IN.ppm]");
   add_view_options(command, options->view);
   add_scene_options(command, options->scene);
-  command.add_flag("--two-sided", options->scene.two_sided, "keep polygons that face away")
-      ->group("Geometry");
+  add_side_option(command, options->scene);
   add_light_option(command, options->scene);
   add_drawing_options(command, options->drawing);
   add_rasterizer_options(command, options->rasterizer);
