@@ -30,16 +30,18 @@ struct NffWriteOptions {
 };
 
 /// Writes the tessellated scene in world coordinates: `b` if the scene has a background, the `v` block with
-/// every parameter that is known if both from and at are, all lights, then each surface that has polygons as
-/// one `f` and its polygons in order. `pp` where corners have given normals (as read, moved by the inverse
-/// transpose of their object's matrix) or the surface has averaged normals, `p` elsewhere.
+/// every parameter that is known if both from and at are, all lights as nff_lights() has them, then each
+/// surface that has polygons as one `f` and its polygons in order. `pp` where corners have given normals (as
+/// read, moved by the surface's normal rule) or the surface has averaged normals, `p` elsewhere. Polygons
+/// that their object's matrix mirrors are walked the other way round, so that their front stays in front. The
+/// angle is the vertical one. Shaders are written as Shader::approximate() says.
 ///
 /// Numbers are the shortest decimal text that reads back as the same double, so parsing the output of a scene
 /// that was read from one NFF file gives that scene again, and writing it a second time the same bytes.
 ///
 /// sink    a note per kind of thing that NFF cannot say and that is left out: yon, a Ka other than 0.30, a
-/// view without
-///         from or at, an angle that is not the vertical one of a picture that is not square
+///         view without from or at, pixels that are not square; one note that names all that is lost of
+///         shaders, lights and shadows
 /// throws  Error(ExitStatus::input) when a coordinate left the range of a double on its way to world space;
 ///         Error(ExitStatus::internal) for a scene with curved primitives; whatever `write` throws
 ///

@@ -86,7 +86,9 @@ struct PlacedSurface {
       eye_local = eye_world;
       normal_to_eye = world_to_eye;  // orthonormal: its own inverse transpose
     } else {
-      flattened = local_to_world.determinant() == 0;
+      const double volume = local_to_world.determinant();
+      flattened = volume == 0;
+      mirrored = volume < 0;
       eye_local = eye_world * local_to_world.inverse();
       normal_to_eye = local_to_eye.inverse().transposed();
     }
@@ -106,6 +108,7 @@ struct PlacedSurface {
   M44d vertex_normal_to_eye;  ///< of vertex normals, by the surface's rule
   V3d eye_local;
   bool flattened = false;  ///< the matrix leaves no volume: no side to see
+  bool mirrored = false;   ///< fronts run clockwise once they have been moved
 };
 
 class Stage {
@@ -185,7 +188,10 @@ class Stage {
                                   : surface.averaged_normals.empty() ? nullptr
                                                                      : &surface.averaged_normals;
     ring_.clear();
-    for (std::uint32_t corner = 0; corner < polygon.corners.size(); ++corner) {
+    const auto corners = static_cast<std::uint32_t>(polygon.corners.size());
+    for (std::uint32_t i = 0; i < corners; ++i) {
+      // The first stays the first; of a mirrored polygon the others come the other way round.
+      const std::uint32_t corner = placed.mirrored && i > 0 ? corners - i : i;
       const std::uint32_t v = polygon.corners[corner];
       V3d normal = normal_eye;
       if (own != nullptr) {

@@ -53,7 +53,7 @@ void add_export(CommandLine& line) {
   add_light_option(command, options->scene);
   command
       .add_option("--mode", options->mode,
-                  "flat: one vertex's colour for the whole polygon [the scene's, else gouraud]")
+                  "flat: one vertex's colour each polygon [the scene's, else gouraud]")
       ->check(CLI::IsMember({"flat", "gouraud"}))
       ->type_name("flat|gouraud")
       ->group("Drawing");

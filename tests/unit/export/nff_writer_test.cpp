@@ -256,15 +256,16 @@ TEST(NffWriter, SaysOncePerKindWhatItLeavesOut) {
   Scene scene = parse(
       "v from 0 0 1 at 0 0 0 hither 1 yon 9 resolution 4 2\n"
       "f 1 1 1 1 0 0 0 1 0.5\np 3 0 0 0 1 0 0 0 1 0\nf 1 1 1 1 0 0 0 1 0.6\np 3 0 0 0 1 0 0 0 1 0\n");
-  scene.view.fit = Fit::smaller;
+  scene.view.fit = Fit::both;
   NffWriteOptions options;
   options.name = "copy.nff";
   const Written written = write(scene, options);
   EXPECT_EQ(written.text.find("yon"), std::string::npos);
-  EXPECT_EQ(written.notes, (std::vector<std::string>{
-                               "the far plane (yon) is not written: NFF's is infinitely far",
-                               "the angle is written as it is, but NFF readers take it for the vertical one",
-                               "ambient coefficients (Ka) other than 0.3 are not written: NFF has none"}));
+  EXPECT_EQ(written.notes,
+            (std::vector<std::string>{
+                "the far plane (yon) is not written: NFF's is infinitely far",
+                "pixels that are not square are not written: NFF readers take the angle for the vertical one",
+                "ambient coefficients (Ka) other than 0.3 are not written: NFF has none"}));
 }
 
 TEST(NffWriter, WritesNoViewWithoutFromAndAt) {

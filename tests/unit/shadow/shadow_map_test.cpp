@@ -42,6 +42,7 @@ struct Bench {
     auto object = std::make_shared<Object>();
     object->surfaces = {square(10, 0), square(1, 1, false)};
     object->surfaces[1]->shader = shader;
+    object->surfaces[1]->material = shader->approximate();  // half transparent
     scene.root.children = {object};
     light.kind = LightKind::spot_sharp;
     light.position = V3d(0, 0, 4), light.target = V3d(0, 0, 0);
