@@ -17,6 +17,11 @@ struct Ramp {
   T start, slope;
 };
 
+/// What a shader asks of a point beside its normal.
+struct Place {
+  V3d position{0, 0, 0}, texture{0, 0, 0};
+};
+
 /// Component 0..resolution-1 as 8 bits, rounded to nearest.
 double to_8_bits(std::uint16_t component, int resolution) {
   if (resolution == 256) return std::min<double>(component, 255);
@@ -32,6 +37,16 @@ bool is_opaque(const SurfaceLook& look) {
 bool is_invisible(const SurfaceLook& look) {
   if (look.material == nullptr) return false;
   return look.shader != nullptr ? look.shader->invisible() : look.material->opacity() == Rgb{0, 0, 0};
+}
+
+bool in_front_of_the_eye(std::span<const V3f> positions) {
+  return std::all_of(positions.begin(), positions.end(), [](const V3f& p) { return p.z > 0; });
+}
+
+/// x/z, y/z and 1/z are linear on the screen where x, y, z are linear in space; the same function takes them
+/// back.
+V3d projected(const V3d& p) {
+  return {p.x / p.z, p.y / p.z, 1 / p.z};
 }
 
 V3d vector(const Rgb& c) {
@@ -59,6 +74,7 @@ void PolygonFiller::fill(const FillPolygon& polygon) {
   const SurfaceLook& look = polygon.look;
   if (is_invisible(look)) return;
   opaque_ = is_opaque(look);
+  perspective_ = phong_ && look.shader != nullptr && in_front_of_the_eye(polygon.eye_positions);
   textured_ = phong_ && look.shader != nullptr && look.shader->wants_texture();
   if (textured_ && buffer_.textures.empty()) buffer_.textures.assign(buffer_.samples.size(), V3f(0, 0, 0));
   edge_table_.load(polygon.corners);
@@ -79,6 +95,7 @@ void PolygonFiller::load_attributes(const FillPolygon& polygon) {
                to_8_bits(v.b, color_resolution_)};
     if (phong_) a.normal = V3d(polygon.normals[i]), a.position = V3d(polygon.eye_positions[i]);
     if (textured_) a.texture = V3d(polygon.textures[i]);
+    if (perspective_) a.position = projected(a.position), a.texture *= a.position.z;
     if (opaque_) continue;
     a.opacity =
         polygon.opacities.empty() ? vector(polygon.look.material->opacity()) : V3d(polygon.opacities[i]);
@@ -110,6 +127,12 @@ void PolygonFiller::fill_span(const Span& span, const SurfaceLook& look, std::ui
   const auto count = static_cast<std::size_t>(span.end - span.first);
   std::uint64_t visible = 0;
 
+  const auto place_at = [&](double distance) {
+    Place place{position.at(distance), texture.at(distance)};
+    if (perspective_) place.position = projected(place.position), place.texture *= place.position.z;
+    return place;
+  };
+
   const auto for_each_visible = [&](auto&& draw) {
     for (std::size_t i = 0; i < count; ++i) {
       const double distance = span.distance + static_cast<double>(i);
@@ -123,9 +146,10 @@ void PolygonFiller::fill_span(const Span& span, const SurfaceLook& look, std::ui
   const bool lit_per_pixel = phong_ && look.material != nullptr;
   if (!opaque_) {
     for_each_visible([&](std::size_t sample, double distance, std::int32_t z) {
-      const LitFragment lit = lit_per_pixel ? lit_fragment(look, shading_, position.at(distance),
-                                                           normal.at(distance), texture.at(distance))
-                                            : LitFragment{V3f(color.at(distance)), V3f(opacity.at(distance))};
+      const Place place = lit_per_pixel ? place_at(distance) : Place{};
+      const LitFragment lit =
+          lit_per_pixel ? lit_fragment(look, shading_, place.position, normal.at(distance), place.texture)
+                        : LitFragment{V3f(color.at(distance)), V3f(opacity.at(distance))};
       buffer_.fragments.add(sample, buffer_.samples.size(), z, lit.color, lit.opacity);
     });
     counts_.transparent_fragments += visible;
@@ -133,8 +157,9 @@ void PolygonFiller::fill_span(const Span& span, const SurfaceLook& look, std::ui
   } else if (phong_) {
     for_each_visible([&](std::size_t sample, double distance, std::int32_t z) {
       buffer_.samples[sample] = {V3f(lit_per_pixel ? normal.at(distance) : color.at(distance)), z};
-      buffer_.points[sample] = {V3f(position.at(distance)), look_number};
-      if (textured_) buffer_.textures[sample] = V3f(texture.at(distance));
+      const Place place = place_at(distance);
+      buffer_.points[sample] = {V3f(place.position), look_number};
+      if (textured_) buffer_.textures[sample] = V3f(place.texture);
     });
   } else {
     for_each_visible([&](std::size_t sample, double distance, std::int32_t z) {

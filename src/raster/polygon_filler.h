@@ -4,9 +4,11 @@
 // Interpolation is by scan lines: along the two edges that bound a span to the row, then along the span.
 // Every sample is computed from the corners directly, not stepped, so errors do not add up: in exact
 // arithmetic and here the results differ by less than 10^-5 of a unit before rounding, and they never leave
-// the range of the corners. Sources: E. Catmull, "A Subdivision Algorithm for Computer Display of Curved
-// Surfaces", PhD thesis, Utah 1974; H. Gouraud, "Continuous Shading of Curved Surfaces", IEEE Trans.
-// Computers C-20(6), 1971; Bui Tuong Phong, CACM 18(6), 1975.
+// the range of the corners. Positions and texture coordinates of surfaces with shaders follow the
+// perspective, as patterns would slide otherwise; all else is linear on the screen. Sources: E. Catmull, "A
+// Subdivision Algorithm for Computer Display of Curved Surfaces", PhD thesis, Utah 1974; H. Gouraud,
+// "Continuous Shading of Curved Surfaces", IEEE Trans. Computers C-20(6), 1971; Bui Tuong Phong, CACM 18(6),
+// 1975.
 #pragma once
 
 #include <cstdint>
@@ -70,8 +72,10 @@ class PolygonFiller {
   EdgeTable edge_table_;
   int color_resolution_;
   bool phong_;
-  bool opaque_ = true, textured_ = false;  ///< the polygon being filled
-  std::vector<Attributes> attributes_;     ///< of the corners
+  // Of the polygon being filled.
+  bool opaque_ = true, textured_ = false;
+  bool perspective_ = false;            ///< Attributes has positions x/z, y/z, 1/z and textures divided by z
+  std::vector<Attributes> attributes_;  ///< of the corners
 };
 
 }  // namespace farop

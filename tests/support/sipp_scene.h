@@ -106,7 +106,8 @@ inline Scene sipp_scene(const V3d& from, const V3d& at, double focal_ratio, int 
   return scene;
 }
 
-/// The picture that `farop render` makes, shadows included: window edges mapped, 8 sub-pixel bits, 24 bits of depth.
+/// The picture that `farop render` makes, shadows included: window edges mapped, 8 sub-pixel bits, 24 bits of
+/// depth.
 inline Framebuffer draw(const Scene& scene, DrawMode mode, PixelFit fit = PixelFit::edges) {
   DiagnosticList list;
   const bool sipp = !scene.inputs.empty() && scene.inputs.front().format == "sipp";

@@ -57,7 +57,7 @@ V3d doubled_vector_area(const EyePolygon& polygon) {
 }
 
 bool same_bits(const EyeVertex& a, const EyeVertex& b) {
-  return a.position == b.position && a.normal == b.normal && a.source == b.source;
+  return a.position == b.position && a.normal == b.normal && a.source == b.source && a.texture == b.texture;
 }
 
 bool is_inside(const V3d& p, const Frustum& f) {
@@ -368,6 +368,25 @@ TEST(ClipRandom, InterpolatesNormalsLinearlyOverTheWholePolygon) {
     }
   }
   EXPECT_GT(made, 5000);
+}
+
+TEST(ClipRandom, InterpolatesTextureCoordinatesWithThePositions) {
+  // Texture coordinates that are an affine map of the position stay that, also where two planes cut.
+  lattice::Random random(6);
+  M44d map;
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 3; ++column) map[row][column] = uniform(random);
+  }
+  int made = 0;
+  for (int i = 0; i < 3000; ++i) {
+    EyePolygon polygon = random_polygon(random);
+    for (EyeVertex& v : polygon) v.texture = v.position * map;
+    for (const EyeVertex& v : clipped(polygon, k_frustum)) {
+      ASSERT_LT((v.texture - v.position * map).length(), 1e-9);
+      if (v.source == k_clip_made) ++made;
+    }
+  }
+  EXPECT_GT(made, 3000);
 }
 
 TEST(ClipRandom, StaysFiniteForHugeAndTinyCoordinates) {

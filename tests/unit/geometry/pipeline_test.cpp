@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -378,6 +379,240 @@ TEST(Pipeline, NormalsSharedMakesAFoldSmooth) {
   bench.run(got);
   EXPECT_NEAR(got.normals[1].z, -1, 1e-6);  // on the fold: between the two planes
   EXPECT_NEAR(got.normals[0].z, -std::sqrt(0.5), 1e-6);
+}
+
+// ---------------------------------------------------------------------- what SIPP scenes ask of the stage
+
+/// Its normal rule, and an object's matrix.
+Object& close_as_sipp(Bench& bench, const M44d& matrix) {
+  Object& object = bench.close();
+  object.surfaces.front()->normal_rule = NormalRule::sipp;
+  object.to_parent = matrix;
+  return object;
+}
+
+M44d scaling(double x, double y, double z) {
+  M44d m;
+  m.setScale(V3d(x, y, z));
+  return m;
+}
+
+V3d in_world(const V3f& eye_normal) {
+  return {eye_normal.x, eye_normal.y, -eye_normal.z};  // of Bench's camera, which looks along -z
+}
+
+TEST(SippNormals, AreMovedByTheMatrixItself) {
+  for (const bool sipp : {true, false}) {
+    Bench bench;
+    bench.add(k_square, std::vector<V3d>(4, V3d(0, 1, 1)));
+    Object& object = bench.close();
+    object.to_parent = scaling(1, 3, 0.5);
+    if (sipp) object.surfaces.front()->normal_rule = NormalRule::sipp;
+    Recorder got(true);
+    bench.run(got);
+    ASSERT_EQ(got.normals.size(), 4u);
+    const V3d expected = sipp ? V3d(0, 3, 0.5) : V3d(0, 1.0 / 3, 2);  // or by the inverse transpose
+    EXPECT_NEAR((in_world(got.normals[0]) - expected.normalized()).length(), 0, 1e-6);
+  }
+}
+
+TEST(SippNormals, AveragedOnesToo) {
+  Bench bench;
+  bench.add({{-1, 0, 0}, {1, 0, 0}, {1, 2, 1}, {-1, 2, 1}});  // slopes that meet in y = 0
+  bench.add({{-1, -2, 1}, {1, -2, 1}, {1, 0, 0}, {-1, 0, 0}});
+  Object& object = close_as_sipp(bench, scaling(1, 1, 2));
+  Surface& surface = *object.surfaces.front();
+  average_normals(surface);
+  surface.averaged_normals[0] = V3d(0.6, 0, 0.8);
+  Recorder got(true);
+  bench.run(got);
+  EXPECT_NEAR((in_world(got.normals[0]) - V3d(0.6, 0, 1.6).normalized()).length(), 0, 1e-6);
+}
+
+TEST(SippNormals, ThatPointToTheBackStayAsTheyAre) {
+  Bench bench;
+  bench.add(k_square, std::vector<V3d>(4, V3d(0, 0, -1)));
+  close_as_sipp(bench, M44d());
+  Recorder got(true);
+  bench.run(got);
+  EXPECT_EQ(in_world(got.normals[0]), V3d(0, 0, -1));
+}
+
+TEST(MirroredObjects, ShowTheSameSideCounterClockwiseFromTheSameFirstCorner) {
+  for (const bool triangles : {false, true}) {
+    Bench bench;
+    bench.options.triangles = triangles;
+    bench.add({{-3, -3, 0}, {3, -3, 0}, {3, 3, 0}, {0, 0, 0}, {-3, 3, 0}});
+    close_as_sipp(bench, scaling(-1, 1, 1));
+    Recorder got;
+    bench.run(got);
+    EXPECT_EQ(bench.report.counts.rendered, 1u);
+    std::int64_t doubled_area = 0;
+    for (const auto& r : got.rings) {
+      std::int64_t doubled = 0;
+      for (std::size_t i = 0; i < r.size(); ++i) {
+        const ScreenVertex &a = r[i], &b = r[(i + 1) % r.size()];
+        doubled += std::int64_t{a.x} * b.y - std::int64_t{b.x} * a.y;
+      }
+      EXPECT_GE(doubled, 0);
+      doubled_area += doubled;
+    }
+    EXPECT_EQ(doubled_area, 2 * (60 * 60 - 60 * 30 / 2));
+    EXPECT_EQ(got.rings.size(), triangles ? 3u : 1u);
+    EXPECT_TRUE(triangles || got.rings[0][0].x == 130);
+  }
+}
+
+TEST(MirroredObjects, DropTheSameSideAsBefore) {
+  Bench bench;
+  bench.add(reversed(k_square));
+  close_as_sipp(bench, scaling(-1, 1, 1));
+  Recorder got;
+  bench.run(got);
+  EXPECT_EQ(bench.report.counts.back_facing, 1u);
+}
+
+struct DepthCase {
+  const char* what;
+  double hither, yon, nearest, farthest;  ///< of the camera; of the depths that come out
+};
+
+TEST(FitDepth, SpreadsDepthsOverTheVerticesWithinThePlanes) {
+  // Vertices from 8 to 12 in front of the eye.
+  constexpr DepthCase cases[] = {{"planes far outside", 0.1, 1000, 8 * 0.999999, 12 * 1.000001},
+                                 {"a vertex before hither", 9, 1000, 9, 12 * 1.000001},
+                                 {"a vertex beyond yon", 0.1, 11, 8 * 0.999999, 11},
+                                 {"both", 9, 11, 9, 11}};
+  for (const DepthCase& c : cases) {
+    Bench bench;
+    bench.add({{-1, -1, 2}, {1, -1, 2}, {0, 1, -2}});
+    bench.close();
+    bench.camera.hither = c.hither, bench.camera.yon = c.yon;
+    bench.camera.fit_depth = true;
+    const GeometrySetup setup = prepare_geometry(bench.scene, bench.camera, bench.viewport, bench.options);
+    EXPECT_DOUBLE_EQ(setup.nearest_depth, c.nearest) << c.what;
+    EXPECT_DOUBLE_EQ(setup.farthest_depth, c.farthest) << c.what;
+    EXPECT_EQ(setup.hither, c.hither) << c.what;
+    EXPECT_EQ(setup.yon, c.yon) << c.what;
+    Recorder got;
+    bench.run(got);
+    ASSERT_EQ(got.rings.size(), 1u);
+    const auto [low, high] = std::minmax_element(got.rings[0].begin(), got.rings[0].end(),
+                                                 [](const auto& a, const auto& b) { return a.z < b.z; });
+    EXPECT_EQ(low->z, 0) << c.what;
+    EXPECT_EQ(high->z, 65535) << c.what;
+  }
+}
+
+TEST(FitDepth, WithoutAnythingBetweenThePlanesTheyCount) {
+  Bench bench;
+  bench.add({{-1, -1, 2}, {1, -1, 2}, {0, 1, -2}});
+  bench.close();
+  bench.camera.hither = 20, bench.camera.yon = 30;
+  bench.camera.fit_depth = true;
+  const GeometrySetup setup = prepare_geometry(bench.scene, bench.camera, bench.viewport, bench.options);
+  EXPECT_EQ(setup.nearest_depth, 20);
+  EXPECT_EQ(setup.farthest_depth, 30);
+}
+
+/// Opacity and colour by texture coordinates, so that it shows what arrives.
+class Gauge : public Shader {
+ public:
+  Shaded shade(const ShadingPoint& point, const ShadingFrame&) const override {
+    return {{point.texture.x, point.texture.y, point.texture.z}, {point.texture.z, point.texture.x, 0.25}};
+  }
+  bool opaque() const override { return false; }
+  bool wants_texture() const override { return true; }
+  Material approximate(std::vector<std::string>*) const override { return {}; }
+  std::string describe() const override { return "gauge"; }
+};
+
+class TextureRecorder : public ScreenPolygonSink {
+ public:
+  PolygonWants wants() const override {
+    PolygonWants wants;
+    wants.textures = wants.opacities = true;
+    wants.triangles = triangles;
+    return wants;
+  }
+  void begin_frame(const ScreenFrame&) override {}
+  void polygons(const ScreenPolygonBatch& b) override {
+    EXPECT_EQ(b.textures.size(), b.vertices.size());
+    EXPECT_EQ(b.opacities.size(), b.vertices.size());
+    batch = b;
+  }
+  void end_frame() override {}
+  bool triangles = false;
+  ScreenPolygonBatch batch;
+};
+
+TEST(Shaders, AreCalledWithTheTextureCoordinatesOfEveryCornerAlsoOfCutOnes) {
+  for (const bool triangles : {false, true}) {
+    Bench bench;
+    bench.add({{-20, -1, 0}, {20, -1, 0}, {20, 1, 0}, {-20, 1, 0}});  // the window ends at +-10
+    Object& object = bench.close();
+    Surface& surface = *object.surfaces.front();
+    const auto gauge = std::make_shared<const Gauge>();
+    surface.shader = gauge;
+    surface.textures = {V3f(0, 0, 0.5f), V3f(1, 0, 0.5f), V3f(1, 1, 0.5f), V3f(0, 1, 0.5f)};
+    TextureRecorder got;
+    got.triangles = triangles;
+    const GeometrySetup setup = prepare_geometry(bench.scene, bench.camera, bench.viewport, bench.options);
+    run_geometry(bench.scene, setup, bench.options, got, bench.clocks);
+    ASSERT_EQ(got.batch.polygons.size(), triangles ? 2u : 1u);
+    for (const ScreenPolygonRecord& record : got.batch.polygons) {
+      EXPECT_EQ(record.shader, gauge.get());
+      for (std::uint32_t i = record.first_vertex; i < record.first_vertex + record.vertex_count; ++i) {
+        const ScreenVertex& v = got.batch.vertices[i];
+        const V3f& t = got.batch.textures[i];
+        EXPECT_NEAR(t.x, v.x == 0 ? 0.25 : 0.75, 1e-6);
+        EXPECT_NEAR(v.r, 255 * t.x, 0.51);
+        EXPECT_NEAR(v.g, 255 * t.y, 0.51);
+        EXPECT_NEAR(v.b, 127.5, 0.51);
+        EXPECT_EQ(got.batch.opacities[i], V3f(0.5f, t.x, 0.25f));
+      }
+    }
+  }
+}
+
+TEST(Shaders, UnlitDrawingDoesNotCallThem) {
+  class Trap : public Gauge {
+   public:
+    Shaded shade(const ShadingPoint&, const ShadingFrame&) const override {
+      ADD_FAILURE();
+      return {};
+    }
+  };
+  for (const bool flat : {false, true}) {
+    Bench bench;
+    bench.add(k_square);
+    bench.close().surfaces.front()->shader = std::make_shared<const Trap>();
+    bench.options.unlit = true, bench.options.flat = flat;
+    Recorder got;
+    bench.run(got);
+    EXPECT_EQ(got.rings.size(), 1u);
+  }
+}
+
+TEST(Lights, ReachTheStageInEyeSpaceWithoutThoseThatAreOff) {
+  Bench bench;
+  Light off, sun, spot;
+  off.active = false;
+  sun.kind = LightKind::directional, sun.position = V3d(0, 0, 1);
+  spot.kind = LightKind::spot_soft, spot.position = V3d(1, 2, 3), spot.target = V3d(1, 2, -5),
+  spot.opening_degrees = 60;
+  spot.color = Rgb{1, 2, 3};
+  bench.scene.lights = {off, sun, spot};
+  const GeometrySetup setup = prepare_geometry(bench.scene, bench.camera, bench.viewport, bench.options);
+  ASSERT_EQ(setup.shading.lights.size(), 2u);
+  EXPECT_EQ(setup.shading.lights[0].position, V3d(0, 0, -1)) << "towards the eye, against the depth axis";
+  EXPECT_NEAR((setup.shading.lights[1].position - V3d(1, 2, 7)).length(), 0, 1e-12);
+  EXPECT_NEAR((setup.shading.lights[1].axis - V3d(0, 0, 1)).length(), 0, 1e-12);
+  EXPECT_NEAR(setup.shading.lights[1].cos_half_angle, std::sqrt(0.75), 1e-12);
+  EXPECT_EQ(setup.shading.lights[1].color, (Rgb{1, 2, 3}));
+  bench.scene.lights = {off};
+  EXPECT_TRUE(
+      prepare_geometry(bench.scene, bench.camera, bench.viewport, bench.options).shading.lights.empty());
 }
 
 }  // namespace

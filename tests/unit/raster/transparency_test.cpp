@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "raster/fragment_store.h"
 #include "raster/reference.h"
 #include "shading/material.h"
 #include "unit/raster/raster_test_support.h"
@@ -127,6 +128,74 @@ TEST(Transparency, HidesFragmentsAtOrBehindTheNearestOpaqueOne) {
   const Pane front{rectangle(0, 0, 8, 8, 4, 200, 0, 0), &half};
   EXPECT_EQ(red(picture_of({opaque, front}, make_frame(9, 9), {}), 3, 3), 140);
   EXPECT_EQ(red(picture_of({front, opaque}, make_frame(9, 9), {}), 3, 3), 140);
+}
+
+Framebuffer additive_picture(const std::vector<Pane>& panes, const Rgb& background) {
+  Drawing drawing;
+  for (const Pane& pane : panes) drawing.add(pane.corners, pane.material);
+  InternalRasterizerOptions options;
+  options.background = background;
+  options.additive_transparency = true;
+  return draw(make_frame(9, 9), drawing, options);
+}
+
+TEST(AdditiveTransparency, TwoHalvesHideTheRest) {
+  const Material half = glass(0.5);
+  const Pane near_pane{rectangle(0, 0, 8, 8, 1, 200, 0, 0), &half},
+      far_pane{rectangle(0, 0, 8, 8, 2, 100, 0, 0), &half},
+      last{rectangle(0, 0, 8, 8, 3, 255, 0, 0), nullptr};
+  for (const std::vector<Pane>& panes :
+       {std::vector<Pane>{near_pane, far_pane, last}, {last, far_pane, near_pane}}) {
+    EXPECT_EQ(red(additive_picture(panes, {1, 1, 1}), 3, 3), 150);
+  }
+  EXPECT_EQ(red(additive_picture({near_pane, far_pane}, {1, 1, 1}), 3, 3), 150)
+      << "nor is the background seen";
+  EXPECT_EQ(red(picture_of({near_pane, far_pane}, make_frame(9, 9), {1, 1, 1}), 3, 3), 189)
+      << "as it usually is";
+}
+
+TEST(AdditiveTransparency, TheLastLayerGetsWhatIsLeft) {
+  const Material thin = glass(0.75), thick = glass(0.125);
+  const Pane first{rectangle(0, 0, 8, 8, 1, 200, 0, 0), &thin},
+      second{rectangle(0, 0, 8, 8, 2, 80, 0, 0), &thick};
+  EXPECT_EQ(red(additive_picture({first, second}, {1, 0, 0}), 3, 3), 50 + 60);
+  EXPECT_EQ(red(additive_picture({first}, {1, 0, 0}), 3, 3), 50 + 191);
+}
+
+TEST(AdditiveTransparency, CountsEveryChannelByItself) {
+  FragmentStore store;
+  store.add(0, 1, 10, V3f(100, 100, 100), V3f(0.5f, 0.25f, 1));
+  store.add(0, 1, 20, V3f(200, 200, 200), V3f(0.75f, 0.875f, 1));
+  const Rgb c = store.composite(0, 30, {40, 40, 40}, Transparency::additive);
+  EXPECT_DOUBLE_EQ(c.r, 50 + 0.5 * 200);
+  EXPECT_DOUBLE_EQ(c.g, 25 + 0.75 * 200);
+  EXPECT_DOUBLE_EQ(c.b, 100);
+  const Rgb over = store.composite(0, 30, {40, 40, 40}, Transparency::over);
+  EXPECT_DOUBLE_EQ(over.r, 50 + 0.5 * 0.75 * 200 + 0.125 * 40);
+}
+
+TEST(VertexOpacity, IsInterpolatedLikeColour) {
+  // Opaque at the left edge, nothing at the right; per channel.
+  const Material glassy = glass(0.3);
+  Drawing drawing;
+  drawing.add(rectangle(0, 0, 100, 10, 5, 200, 200, 200), &glassy);
+  drawing.batch.opacities = {V3f(1, 0.5f, 0), V3f(0, 0.5f, 1), V3f(0, 0.5f, 1), V3f(1, 0.5f, 0)};
+  InternalRasterizerOptions options;
+  options.background = {0, 0, 0};
+  const Framebuffer picture = draw(make_frame(101, 11), drawing, options);
+  for (int x = 0; x < 100; ++x) {
+    const std::size_t at = 3 * picture.pixel(x, 4);
+    EXPECT_NEAR(picture.rgb[at], 200 * (1 - x / 100.0), 0.51) << x;
+    EXPECT_EQ(picture.rgb[at + 1], 100);
+    EXPECT_NEAR(picture.rgb[at + 2], 200 * (x / 100.0), 0.51) << x;
+  }
+}
+
+TEST(VertexOpacity, WithoutAnyTheMaterialsCounts) {
+  const Material glassy = glass(0.75);
+  Drawing drawing;
+  drawing.add(rectangle(0, 0, 8, 8, 5, 200, 0, 0), &glassy);
+  EXPECT_EQ(red(draw(make_frame(9, 9), drawing), 3, 3), 50);
 }
 
 TEST(Transparency, RoundsOnceAtTheEnd) {
