@@ -3,12 +3,13 @@
 //
 // Does:      wire-frame, flat, Gouraud and Phong pictures; z-buffer; exact order-independent transparency
 //            by the materials' opacity; super-sampling.
-// Does not:  rows counted from the top (ScreenFrame::y_down); textures; shadows.
+// Does not:  rows counted from the top (ScreenFrame::y_down); image textures.
 // Coverage:  fill rule `lb`, exact on integers (edge_table.h). Depth: integers, rounded to nearest; strictly
 //            nearer wins, of equal depths the first drawn stays. Colours: 8 bits (of another colour
 //            resolution than 256, round(255 c / (CRES - 1)) at the corners), rounded once.
-// Memory:    filled modes 16 bytes a sample, Phong 32; 4 more once a transparent polygon is drawn, and 24 for
-//            every transparent fragment that is visible when drawn; then 3 bytes a pixel of the result (7
+// Memory:    filled modes 16 bytes a sample, Phong 32; 12 more once a shader wants texture
+//            coordinates; 4 more once a transparent polygon is drawn, and 32 for every transparent fragment
+//            that is visible when drawn; then 3 bytes a pixel of the result (7
 //            with depth), while the samples are still there. Line mode 3 (7) bytes a pixel.
 #pragma once
 
