@@ -180,7 +180,8 @@ TEST(SippToNff, NormalsAreMovedByTheMatrixItself) {
   Scene scene = test::sipp_scene(V3d(0, 0, 5), V3d(0, 0, 0), 0.3, 100, 100);
   scene.root.children.front()->children = {
       test::object({test::sphere(1, 8, phong({1, 1, 1}))}, moved(V3d(0, 0, 0), V3d(1, 4, 1)))};
-  const Surface& moved_surface = *copy_of(scene).scene.root.children.front()->surfaces.front();
+  const Copy copy = copy_of(scene);
+  const Surface& moved_surface = *copy.scene.root.children.front()->surfaces.front();
   const Surface& surface = *scene.root.children.front()->children.front()->surfaces.front();
   // The first corner of the first polygon.
   const std::uint32_t first = (*surface.polygons.begin()).corners[0];
