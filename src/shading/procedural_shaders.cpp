@@ -100,9 +100,10 @@ Rgb BozoPattern::mean() const {
   unscaled.scale = 1;
   Rgb sum;
   constexpr int side = 12;
-  for (int i = 0; i < side * side * side; ++i) {
-    const V3d place(i % side, i / side % side, i / (side * side));
-    sum += unscaled.color(place * 0.7, *standard_noise());
+  for (int z = 0; z < side; ++z) {
+    for (int y = 0; y < side; ++y) {
+      for (int x = 0; x < side; ++x) sum += unscaled.color(V3d(x, y, z) * 0.7, *standard_noise());
+    }
   }
   return sum * (1.0 / (side * side * side));
 }

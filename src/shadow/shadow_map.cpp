@@ -124,7 +124,7 @@ double ShadowMap::unshadowed(const V3d& point) const {
   const double column = center_ + scale_ * (p.x / p.z), row = center_ + scale_ * (p.y / p.z);
   if (!(column >= 0 && column <= size_ - 1 && row >= 0 && row <= size_ - 1)) return 1;
   const double half = 0.002 * size_;
-  const int n = std::max(1, static_cast<int>(2 * half + 0.5));
+  const int n = std::max(1, static_cast<int>(round_half_up(2 * half)));
   const double step = 2 * half / n;
   std::uint64_t place = mixed(column, row);
   const auto jittered = [&](int part) {
