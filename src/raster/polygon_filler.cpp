@@ -102,36 +102,23 @@ void PolygonFiller::load_attributes(const FillPolygon& polygon) {
   }
 }
 
-PolygonFiller::Attributes PolygonFiller::at(const EdgePoint& point) const {
-  const Attributes& a = attributes_[point.bottom];
-  const Attributes& b = attributes_[point.top];
-  const auto mix = [&](const auto& from, const auto& to) { return from + (to - from) * point.along; };
-  Attributes result;
-  result.depth = mix(a.depth, b.depth);
-  result.color = mix(a.color, b.color);
-  if (phong_) result.normal = mix(a.normal, b.normal), result.position = mix(a.position, b.position);
-  if (textured_) result.texture = mix(a.texture, b.texture);
-  if (!opaque_) result.opacity = mix(a.opacity, b.opacity);
-  return result;
+template <class T>
+T PolygonFiller::at(const EdgePoint& point, T Attributes::*attribute) const {
+  const T& a = attributes_[point.bottom].*attribute;
+  const T& b = attributes_[point.top].*attribute;
+  return a + (b - a) * point.along;
 }
 
 void PolygonFiller::fill_span(const Span& span, const SurfaceLook& look, std::uint32_t look_number) {
-  const Attributes left = at(span.left), right = at(span.right);
-  const Ramp depth(left.depth + 0.5, right.depth + 0.5, span.width);  // not negative: truncation rounds
-  const Ramp color(left.color, right.color, span.width);
-  const Ramp normal(left.normal, right.normal, span.width);
-  const Ramp position(left.position, right.position, span.width);
-  const Ramp texture(left.texture, right.texture, span.width);
-  const Ramp opacity(left.opacity, right.opacity, span.width);
+  const auto ramp = [&](auto attribute) {
+    return Ramp(at(span.left, attribute), at(span.right, attribute), span.width);
+  };
+  // Not negative: truncation rounds.
+  const Ramp depth(at(span.left, &Attributes::depth) + 0.5, at(span.right, &Attributes::depth) + 0.5,
+                   span.width);
   const std::size_t first = buffer_.index(span.first, edge_table_.row());
   const auto count = static_cast<std::size_t>(span.end - span.first);
   std::uint64_t visible = 0;
-
-  const auto place_at = [&](double distance) {
-    Place place{position.at(distance), texture.at(distance)};
-    if (perspective_) place.position = projected(place.position), place.texture *= place.position.z;
-    return place;
-  };
 
   const auto for_each_visible = [&](auto&& draw) {
     for (std::size_t i = 0; i < count; ++i) {
@@ -144,28 +131,41 @@ void PolygonFiller::fill_span(const Span& span, const SurfaceLook& look, std::ui
   };
 
   const bool lit_per_pixel = phong_ && look.material != nullptr;
-  if (!opaque_) {
+  if (lit_per_pixel) {
+    const Ramp normal = ramp(&Attributes::normal), position = ramp(&Attributes::position),
+               texture = ramp(&Attributes::texture);
+    const auto place_at = [&](double distance) {
+      Place place{position.at(distance), texture.at(distance)};
+      if (perspective_) place.position = projected(place.position), place.texture *= place.position.z;
+      return place;
+    };
     for_each_visible([&](std::size_t sample, double distance, std::int32_t z) {
-      const Place place = lit_per_pixel ? place_at(distance) : Place{};
-      const LitFragment lit =
-          lit_per_pixel ? lit_fragment(look, shading_, place.position, normal.at(distance), place.texture)
-                        : LitFragment{V3f(color.at(distance)), V3f(opacity.at(distance))};
-      buffer_.fragments.add(sample, buffer_.samples.size(), z, lit.color, lit.opacity);
-    });
-    counts_.transparent_fragments += visible;
-    if (lit_per_pixel) counts_.reflections += visible;
-  } else if (phong_) {
-    for_each_visible([&](std::size_t sample, double distance, std::int32_t z) {
-      buffer_.samples[sample] = {V3f(lit_per_pixel ? normal.at(distance) : color.at(distance)), z};
       const Place place = place_at(distance);
+      if (!opaque_) {
+        const LitFragment lit =
+            lit_fragment(look, shading_, place.position, normal.at(distance), place.texture);
+        buffer_.fragments.add(sample, buffer_.samples.size(), z, lit.color, lit.opacity);
+        return;
+      }
+      buffer_.samples[sample] = {V3f(normal.at(distance)), z};
       buffer_.points[sample] = {V3f(place.position), look_number};
       if (textured_) buffer_.textures[sample] = V3f(place.texture);
     });
+    if (!opaque_) counts_.reflections += visible;
+  } else if (!opaque_) {
+    const Ramp color = ramp(&Attributes::color), opacity = ramp(&Attributes::opacity);
+    for_each_visible([&](std::size_t sample, double distance, std::int32_t z) {
+      buffer_.fragments.add(sample, buffer_.samples.size(), z, V3f(color.at(distance)),
+                            V3f(opacity.at(distance)));
+    });
   } else {
+    const Ramp color = ramp(&Attributes::color);
     for_each_visible([&](std::size_t sample, double distance, std::int32_t z) {
       buffer_.samples[sample] = {V3f(color.at(distance)), z};
+      if (phong_) buffer_.points[sample].material = look_number;
     });
   }
+  if (!opaque_) counts_.transparent_fragments += visible;
   counts_.fragments += count;
   counts_.visible_fragments += visible;
 }

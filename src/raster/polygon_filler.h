@@ -63,7 +63,9 @@ class PolygonFiller {
   };
 
   void load_attributes(const FillPolygon& polygon);
-  Attributes at(const EdgePoint& point) const;
+  /// On an edge, between the corners at its ends.
+  template <class T>
+  T at(const EdgePoint& point, T Attributes::*attribute) const;
   void fill_span(const Span& span, const SurfaceLook& look, std::uint32_t look_number);
 
   SampleBuffer& buffer_;
