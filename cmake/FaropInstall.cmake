@@ -2,7 +2,7 @@
 # Install rules: the program, its manual, and the stages as libraries for find_package(farop).
 include(CMakePackageConfigHelpers)
 
-set(stages core shading scene parse_nff spd geometry solids raster plugin isolate export)
+set(stages core shading scene parse_nff spd geometry solids raster shadow plugin isolate export)
 install(TARGETS farop_pictures EXPORT farop-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 foreach(stage IN LISTS stages)
   install(TARGETS farop_${stage} EXPORT farop-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "shading/opacity.h"
-#include "shading/sipp_text.h"
+#include "shading/opacity_internal.h"
+#include "shading/sipp_text_internal.h"
 
 namespace farop {
 namespace {

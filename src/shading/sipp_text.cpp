@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "shading/sipp_text.h"
-
 #include <fmt/format.h>
+
+#include "shading/sipp_text_internal.h"
 
 namespace farop {
 
