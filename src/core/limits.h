@@ -19,6 +19,10 @@ constexpr int k_max_subpixel_bits = 8;
 /// Degree of super-sampling: 16 x 16 = 256 samples a pixel; beyond that an 8-bit mean no longer changes
 /// visibly.
 constexpr int k_max_samples = 16;
+/// Side of a shadow map, texels: 1 GiB while it is drawn.
+constexpr int k_max_shadow_size = 8192;
+/// Texels of all shadow maps of a frame: 1 GiB, or 4096 maps of the usual size.
+constexpr std::int64_t k_max_shadow_texels = std::int64_t{1} << 28;
 /// Vertices of one polygon: a billion needs 24 GB already; the count must fit 30 bits of a stored record.
 constexpr std::int64_t k_max_polygon_vertices = (std::int64_t{1} << 30) - 1;
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "shadow/shadow_map.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -8,6 +10,8 @@
 #include <limits>
 #include <numbers>
 
+#include "core/error.h"
+#include "core/limits.h"
 #include "raster/internal_rasterizer.h"
 
 namespace farop {
@@ -66,6 +70,26 @@ std::uint64_t mixed(double a, double b) {
   return x ^ (x >> 31);
 }
 
+int limited_size(const Light& light) {
+  return std::clamp(light.shadow_size, 1, k_max_shadow_size);
+}
+
+void check_size_of_all(const Scene& scene) {
+  std::int64_t texels = 0;
+  std::int64_t maps = 0;
+  for (const Light& light : scene.lights) {
+    if (!casts_shadows(light)) continue;
+    const std::int64_t size = limited_size(light);
+    texels += size * size;
+    ++maps;
+  }
+  if (texels <= k_max_shadow_texels) return;
+  throw Error(ExitStatus::input,
+              fmt::format("{} shadow maps have {} texels in all, expected {} at most", maps, texels,
+                          k_max_shadow_texels),
+              "make the maps smaller, or let fewer lights cast shadows");
+}
+
 }  // namespace
 
 ShadowJitter::ShadowJitter(const std::function<double()>& uniform) {
@@ -76,7 +100,7 @@ ShadowMap::ShadowMap(const Scene& scene, const Light& light, std::shared_ptr<con
     : jitter_(std::move(jitter)) {
   const double distance = (light.target - light.position).length();
   if (!(distance > 0) || !std::isfinite(distance)) return;
-  size_ = std::clamp(light.shadow_size, 1, k_max_shadow_size);
+  size_ = limited_size(light);
   bias_ = 0.005 * distance;
 
   Viewport viewport;
@@ -146,6 +170,7 @@ bool casts_shadows(const Light& light) {
 }
 
 int cast_shadows(const Scene& scene, GeometrySetup& setup, const std::function<double()>& uniform) {
+  check_size_of_all(scene);
   std::shared_ptr<const ShadowJitter> jitter;
   int maps = 0;
   std::size_t source = 0;

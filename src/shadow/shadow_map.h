@@ -18,9 +18,6 @@
 
 namespace farop {
 
-/// A map has k_max_shadow_size x k_max_shadow_size texels at most (1 GiB while it is drawn).
-constexpr int k_max_shadow_size = 8192;
-
 /// Random offsets of the samples of a lookup, shared by the maps of a frame.
 struct ShadowJitter {
   /// Draws 256 numbers 0 <= u < 1.
@@ -32,9 +29,9 @@ struct ShadowJitter {
 class ShadowMap : public LightShadow {
  public:
   /// Draws the scene's polygons as they are now, both sides of them, all opaque, from `light` towards its
-  /// target: light.shadow_size texels a side (limited to 1 .. k_max_shadow_size), the cone's opening (limited
-  /// to 179 degrees) across. No shader is called. The scene is tessellated. A light at its own target gets no
-  /// map: everything is lit. Throws Error(surroundings) when memory runs out.
+  /// target: light.shadow_size texels a side (limited to 1 .. k_max_shadow_size, core/limits.h), the cone's
+  /// opening (limited to 179 degrees) across. No shader is called. The scene is tessellated. A light at its
+  /// own target gets no map: everything is lit. Throws Error(surroundings) when memory runs out.
   ShadowMap(const Scene& scene, const Light& light, std::shared_ptr<const ShadowJitter> jitter);
 
   /// Percentage-closer filtering: of n x n samples, one jittered within each part of a box of half width
@@ -72,7 +69,8 @@ bool casts_shadows(const Light& light);
 
 /// Gives every active spot that casts shadows a new map, in the lights of `setup` (from prepare_geometry with
 /// the same scene). Draws 256 numbers from `uniform` if there is any such light, as SIPP does before it looks
-/// at noise. Returns the number of maps.
+/// at noise. Returns the number of maps. Throws Error(input) when the maps together would have more than
+/// k_max_shadow_texels texels, and what ShadowMap throws.
 int cast_shadows(const Scene& scene, GeometrySetup& setup, const std::function<double()>& uniform);
 
 }  // namespace farop

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "core/error.h"
 #include "scene/surface_builder.h"
 #include "shading/noise.h"
 #include "shading/sipp_shaders.h"
@@ -206,6 +207,22 @@ TEST(CastShadows, GivesMapsToActiveSpotsThatWantThem) {
   EXPECT_EQ(illuminate(lights[2], V3d(2, 0.2, 0) * to_eye).fraction, 1);
   EXPECT_EQ(illuminate(lights[4], V3d(0.5, 0.2, 0) * to_eye).fraction, 0);
   EXPECT_GT(illuminate(lights[4], V3d(2, 0.2, 0) * to_eye).fraction, 0);
+}
+
+TEST(CastShadows, RefusesMoreTexelsThanAFrameMayHave) {
+  Bench bench;
+  bench.light.shadow_size = 1 << 30;  // counts as the largest: 2^26 texels
+  bench.scene.lights.assign(5, bench.light);
+  GeometrySetup setup = prepare_geometry(bench.scene, Camera{}, Viewport{}, GeometryOptions{});
+  int drawn = 0;
+  try {
+    cast_shadows(bench.scene, setup, [&] { return ++drawn, 0.5; });
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), ExitStatus::input);
+    EXPECT_STREQ(error.what(), "5 shadow maps have 335544320 texels in all, expected 268435456 at most");
+  }
+  EXPECT_EQ(drawn, 0);
 }
 
 TEST(CastShadows, WithoutSuchLightsDrawsNothing) {
