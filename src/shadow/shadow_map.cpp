@@ -55,7 +55,9 @@ Camera camera_of(const Light& light) {
   const double distance = (light.target - light.position).length();
   Camera camera;
   camera.from = light.position, camera.at = light.target, camera.up = up_of(light.position, light.target);
-  camera.angle_degrees = std::clamp(light.opening_degrees, 0.001, 179.0);
+  constexpr double narrowest = 0.001;  // also of what is no number
+  camera.angle_degrees =
+      light.opening_degrees > narrowest ? std::min(light.opening_degrees, 179.0) : narrowest;
   camera.hither = distance / k_depth_range;
   camera.yon = distance * k_depth_range;
   camera.fit_depth = true;

@@ -169,6 +169,19 @@ TEST(ShadowMap, ALightAtItsOwnTargetHasNoMap) {
   EXPECT_EQ(bench.map().unshadowed(V3d(0, 0, 0)), 1);
 }
 
+TEST(ShadowMap, SurvivesAnyCone) {
+  for (const double degrees : {-10.0, 0.0, 179.9, 360.0, 1e300, std::nan("")}) {
+    Bench bench;
+    bench.light.opening_degrees = degrees;
+    const double fraction = bench.map().unshadowed(V3d(0, 0, 0));
+    // At 179 degrees a texel is wider than the plate, and its middle misses it.
+    EXPECT_EQ(fraction, degrees > 170 ? 1 : 0) << degrees;
+  }
+  Bench lost;
+  lost.light.position = V3d(std::nan(""), 0, 0);
+  EXPECT_EQ(lost.map().unshadowed(V3d(0, 0, 0)), 1);
+}
+
 TEST(ShadowMap, AnswersAlikeWhenAskedAgain) {
   Bench bench;
   bench.light.shadow_size = 512;
