@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // SIPP's primitives, polygon by polygon as SIPP 3.1 makes them.
 //
-// Every function returns a new object with the identity matrix, or nullptr where SIPP does: for a negative or
-// no size, a resolution below 1, numbers that are not finite. All throw Error(ExitStatus::input) before
+// Every function returns a new object with the identity matrix, or nullptr: for a resolution below 1, sizes
+// that are not finite, and where a function says so. All throw Error(ExitStatus::input) before
 // anything is made when there would be more than ShapeLook::max_polygons polygons.
 // Surfaces have their polygons in SIPP's list order (the reverse of the order in which they are made).
 #pragma once
@@ -35,19 +35,20 @@ std::shared_ptr<Object> torus(double big_radius, double small_radius, int around
 std::shared_ptr<Object> ellipsoid(const V3d& radii, int resolution, const ShapeLook& look);
 std::shared_ptr<Object> sphere(double radius, int resolution, const ShapeLook& look);
 
-/// Centred, axis z. Up to three surfaces: bottom cap, top cap, side. Radii >= 0, not both 0.
+/// Centred, axis z. Up to three surfaces: bottom cap, top cap, side. nullptr for a negative radius and for
+/// two of 0.
 std::shared_ptr<Object> cone(double bottom_radius, double top_radius, double length, int resolution,
                              const ShapeLook& look);
 std::shared_ptr<Object> cylinder(double radius, double length, int resolution, const ShapeLook& look);
 
-/// Centred in z. `outline` counter-clockwise seen from +z, convex or concave, at least 3 points. Each of the
-/// n + 2 faces is a surface of its own: top, bottom, sides.
+/// Centred in z. `outline` counter-clockwise seen from +z, convex or concave, at least 3 points (else
+/// nullptr). Each of the n + 2 faces is a surface of its own: top, bottom, sides.
 std::shared_ptr<Object> prism(std::span<const V2d> outline, double length, const ShapeLook& look);
 std::shared_ptr<Object> block(const V3d& size, const ShapeLook& look);
 std::shared_ptr<Object> cube(double size, const ShapeLook& look);
 
 /// Control points, and for each patch 16 indices into them from 0 (four rows of four), for each curve four
-/// (so patches.size() is a multiple of 16). nullptr also for indices out of range.
+/// (so patches.size() is a multiple of 16). nullptr also without any and for indices out of range.
 /// resolution^2 quadrilaterals a patch, all in one surface.
 std::shared_ptr<Object> bezier_patches(std::span<const V3d> points, std::span<const int> patches,
                                        int resolution, const ShapeLook& look);

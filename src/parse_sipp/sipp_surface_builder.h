@@ -34,6 +34,8 @@ struct Vertex {
 /// joins nothing.
 class SurfaceBuilder {
  public:
+  SurfaceBuilder();
+
   void push_vertex(const Vertex& vertex);
   /// Makes the vertex stack a polygon and empties it. With fewer than three vertices on the stack there is no
   /// polygon (it would have no area): false.
@@ -55,6 +57,7 @@ class SurfaceBuilder {
 
  private:
   std::uint32_t stored(const Vertex& vertex);
+  std::uint32_t find(const Vertex& vertex, const VertexKey& key) const;
   void update_tolerance(const V3d& position);
   void reset_vertices();
 

@@ -21,6 +21,7 @@ const std::map<std::string, Rooms> k_may_include = {
     {"shading", {"core"}},
     {"scene", {"core", "shading"}},
     {"parse_nff", {"core", "shading", "scene"}},
+    {"parse_sipp", {"core", "shading", "scene"}},
     {"spd", {"core", "scene"}},
     {"geometry", {"core", "shading", "scene"}},
     {"solids", {"core", "scene", "geometry"}},
