@@ -9,6 +9,11 @@ foreach(stage IN LISTS stages)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/${stage} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/farop
           FILES_MATCHING PATTERN "*.h" PATTERN "*_internal.h" EXCLUDE)
 endforeach()
+install(TARGETS farop_sipp_model farop_sipp EXPORT farop-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/sipp_api/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/farop-sipp)
+configure_file(${PROJECT_SOURCE_DIR}/cmake/sipp.pc.in ${PROJECT_BINARY_DIR}/sipp.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/sipp.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 install(TARGETS farop_rasterizer_abi EXPORT farop-targets)
 install(DIRECTORY plugins/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT farop-targets NAMESPACE farop:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/farop)

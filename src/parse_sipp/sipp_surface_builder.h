@@ -47,6 +47,8 @@ class SurfaceBuilder {
   bool empty() const { return counts_.empty(); }
   std::uint64_t polygon_count() const { return counts_.size(); }
   std::size_t vertex_count() const { return positions_.size(); }
+  /// Which vertices have a normal of their own, by their index in the surface; empty when none has.
+  const std::vector<bool>& own_normals() const { return has_normal_; }
 
   /// The finished surface, nullptr when no polygon is pending (then nothing changes). Its polygons are in
   /// SIPP's list order: the one pushed last comes first; their corners stay in the order pushed.

@@ -27,6 +27,7 @@ const std::map<std::string, Rooms> k_may_include = {
     {"solids", {"core", "scene", "geometry"}},
     {"raster", {"core", "shading"}},
     {"shadow", {"core", "shading", "scene", "geometry", "raster"}},
+    {"sipp_api", {"core", "shading", "scene", "parse_sipp", "geometry", "raster", "shadow", "export"}},
     {"plugin", {"core", "shading"}},
     {"isolate", {"core", "shading", "plugin"}},
     {"export", {"core", "shading", "scene"}},

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "primitives.h"
+
+#include <cstdio>
+
+#include "library_internal.h"
+#include "parse_sipp/bezier_file.h"
+#include "parse_sipp/sipp_shapes.h"
+
+namespace farop::sipp_api {
+namespace {
+
+/// The C object around a shape, with the look bound to each of its surfaces; parts become sub-objects.
+::Object* wrapped(const farop::Object& shape, void* description, ::Shader* shader) {
+  ::Object* const object = new_object();
+  for (const auto& geometry : shape.surfaces) {
+    ::Surface* const surface = new_surface(geometry, description, shader);
+    surface->ref_count = 0;  // the object's alone, also where the program counts its own references
+    append_surface(*object, *surface);
+  }
+  for (const auto& part : shape.children) {
+    ::Object* const sub_object = wrapped(*part, description, shader);
+    sub_object->ref_count = 0;
+    append_sub_object(*object, *sub_object);
+  }
+  return object;
+}
+
+/// `make` gives the shape for a look.
+template <class Make>
+::Object* primitive(void* description, ::Shader* shader, int texture, const Make& make) {
+  return guarded<::Object*>(nullptr, [&]() -> ::Object* {
+    if (texture < WORLD || texture > NATURAL) {
+      throw Error(ExitStatus::input, fmt::format("unknown texture mapping {}", texture),
+                  "WORLD, CYLINDRICAL, SPHERICAL or NATURAL");
+    }
+    const std::shared_ptr<farop::Object> shape =
+        make(sipp::ShapeLook{nullptr, static_cast<sipp::TextureMapping>(texture)});
+    return shape ? wrapped(*shape, description, shader) : nullptr;
+  });
+}
+
+std::vector<V3d> points_of(int count, const Vector* points) {
+  std::vector<V3d> out;
+  for (int i = 0; i < count; ++i) out.push_back(to_vector(points[i]));
+  return out;
+}
+
+std::span<const int> indices_of(int groups, int size, const int* indices) {
+  if (groups < 1 || indices == nullptr) return {};
+  return {indices, static_cast<std::size_t>(groups) * static_cast<std::size_t>(size)};
+}
+
+std::string rest_of(std::FILE* file) {
+  std::string text;
+  char block[4096];
+  while (const std::size_t n = std::fread(block, 1, sizeof block, file)) text.append(block, n);
+  return text;
+}
+
+class PrintingSink : public DiagnosticSink {
+ public:
+  void report(Diagnostic diagnostic) override { std::fputs(to_text(diagnostic).c_str(), stderr); }
+};
+
+}  // namespace
+}  // namespace farop::sipp_api
+
+using namespace farop::sipp_api;
+namespace sipp = farop::sipp;
+using sipp::ShapeLook;
+
+::Object* sipp_torus(double big_radius, double small_radius, int res_big, int res_small, void* description,
+                     Shader* shader, int texture) {
+  return primitive(description, shader, texture, [&](const ShapeLook& look) {
+    return sipp::torus(big_radius, small_radius, res_big, res_small, look);
+  });
+}
+::Object* sipp_cone(double bottom_radius, double top_radius, double length, int res, void* description,
+                    Shader* shader, int texture) {
+  return primitive(description, shader, texture, [&](const ShapeLook& look) {
+    return sipp::cone(bottom_radius, top_radius, length, res, look);
+  });
+}
+::Object* sipp_cylinder(double radius, double length, int res, void* description, Shader* shader,
+                        int texture) {
+  return primitive(description, shader, texture,
+                   [&](const ShapeLook& look) { return sipp::cylinder(radius, length, res, look); });
+}
+::Object* sipp_ellipsoid(double x_radius, double y_radius, double z_radius, int res, void* description,
+                         Shader* shader, int texture) {
+  return primitive(description, shader, texture, [&](const ShapeLook& look) {
+    return sipp::ellipsoid({x_radius, y_radius, z_radius}, res, look);
+  });
+}
+::Object* sipp_sphere(double radius, int res, void* description, Shader* shader, int texture) {
+  return primitive(description, shader, texture,
+                   [&](const ShapeLook& look) { return sipp::sphere(radius, res, look); });
+}
+::Object* sipp_prism(int count, Vector* points, double length, void* description, Shader* shader,
+                     int texture) {
+  return primitive(description, shader, texture, [&](const ShapeLook& look) {
+    std::vector<farop::V2d> outline;
+    for (int i = 0; i < count; ++i) outline.emplace_back(points[i].x, points[i].y);
+    return sipp::prism(outline, length, look);
+  });
+}
+::Object* sipp_block(double x_size, double y_size, double z_size, void* description, Shader* shader,
+                     int texture) {
+  return primitive(description, shader, texture, [&](const ShapeLook& look) {
+    return sipp::block({x_size, y_size, z_size}, look);
+  });
+}
+::Object* sipp_cube(double size, void* description, Shader* shader, int texture) {
+  return primitive(description, shader, texture,
+                   [&](const ShapeLook& look) { return sipp::cube(size, look); });
+}
+::Object* sipp_bezier_file(FILE* file, int res, void* description, Shader* shader, int texture) {
+  if (file == nullptr) return nullptr;
+  return primitive(description, shader, texture,
+                   [&](const ShapeLook& look) -> std::shared_ptr<farop::Object> {
+                     const std::string text = rest_of(file);
+                     farop::WordReader reader(text, "Bezier file");
+                     PrintingSink sink;
+                     const auto curves_or_patches = sipp::read_bezier_file(reader, sink);
+                     return curves_or_patches ? sipp::bezier(*curves_or_patches, res, look) : nullptr;
+                   });
+}
+::Object* sipp_bezier_patches(int vertex_count, Vector* vertices, int patch_count, int* indices, int res,
+                              void* description, Shader* shader, int texture) {
+  return primitive(description, shader, texture, [&](const ShapeLook& look) {
+    return sipp::bezier_patches(points_of(vertex_count, vertices), indices_of(patch_count, 16, indices), res,
+                                look);
+  });
+}
+::Object* sipp_bezier_rotcurve(int vertex_count, Vector* vertices, int curve_count, int* indices, int res,
+                               void* description, Shader* shader, int texture) {
+  return primitive(description, shader, texture, [&](const ShapeLook& look) {
+    return sipp::bezier_rotcurves(points_of(vertex_count, vertices), indices_of(curve_count, 4, indices), res,
+                                  look);
+  });
+}
+::Object* sipp_teapot(int res, void* description, Shader* shader, int texture) {
+  return primitive(description, shader, texture,
+                   [&](const ShapeLook& look) { return sipp::teapot(res, look); });
+}
+::Object* sipp_teapot_body(int res, void* description, Shader* shader, int texture) {
+  return primitive(description, shader, texture,
+                   [&](const ShapeLook& look) { return sipp::teapot_body(res, look); });
+}
+::Object* sipp_teapot_lid(int res, void* description, Shader* shader, int texture) {
+  return primitive(description, shader, texture,
+                   [&](const ShapeLook& look) { return sipp::teapot_lid(res, look); });
+}
+::Object* sipp_teapot_spout(int res, void* description, Shader* shader, int texture) {
+  return primitive(description, shader, texture,
+                   [&](const ShapeLook& look) { return sipp::teapot_spout(res, look); });
+}
+::Object* sipp_teapot_handle(int res, void* description, Shader* shader, int texture) {
+  return primitive(description, shader, texture,
+                   [&](const ShapeLook& look) { return sipp::teapot_handle(res, look); });
+}
