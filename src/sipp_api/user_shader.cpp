@@ -67,6 +67,7 @@ class UserShader : public farop::Shader {
               Lightsource* lights) const {
     Color color{0, 0, 0}, opacity{1, 1, 1};
     call_shader(function_, &position, &normal, &texture, &view_vec, lights, description_, &color, &opacity);
+    if (state().rendering && state().terminated) throw Terminated{};
     return {clamp01(to_rgb(color)), clamp01(to_rgb(opacity))};
   }
 

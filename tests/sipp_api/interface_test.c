@@ -156,6 +156,9 @@ static void objects(void) {
   object_add_subobj(sipp_world, a);
   object_unref(a);
   EXPECT(a->ref_count == 1);
+  object_add_subobj(a, object_create());
+  copy = object_dup(a);
+  EXPECT(copy->ref_count == 1 && copy->sub_objs[0]->ref_count == 1);
   EXPECT(sipp_user_refcount(FALSE) == TRUE);
 }
 
@@ -370,6 +373,33 @@ static void masks_and_bumps(void) {
   sipp_pixmap_destruct(image);
 }
 
+static void red_of_basic(Vector* pos, Vector* normal, Vector* texture, Vector* view_vec,
+                         Lightsource* light_list, Surf_desc* desc, Color* color, Color* opacity) {
+  basic_shader(pos, normal, texture, view_vec, light_list, desc, color, opacity);
+  color->grn = color->blu = 0.0;
+  if (light_list != NULL && light_list->next != NULL) {
+    Color of_the_others;
+    basic_shader(pos, normal, texture, view_vec, light_list->next, desc, &of_the_others, opacity);
+    color->grn = of_the_others.red;
+  }
+}
+
+static void lights_in_shaders_of_the_program(void) {
+  Surf_desc matt;
+  Sipp_pixmap* image;
+  current = "lights in shaders of the program";
+  start();
+  matt = white;
+  matt.ambient = 0.0;
+  light_active(lightsource_create(0.0, 0.0, 1.0, 0.1, 0.1, 0.1, LIGHT_DIRECTION), FALSE);
+  lightsource_create(0.0, 0.0, 1.0, 0.25, 0.25, 0.25, LIGHT_DIRECTION);
+  lightsource_create(0.0, 0.0, 1.0, 0.5, 0.5, 0.5, LIGHT_DIRECTION);
+  show(square(0.0, &matt, (Shader*)red_of_basic));
+  image = draw(20, PHONG);
+  EXPECT(level(image, 10, 10, 0) == 191 && level(image, 10, 10, 1) == 64 && level(image, 10, 10, 2) == 0);
+  sipp_pixmap_destruct(image);
+}
+
 static void called_shaders_equal_bound_ones(void) {
   Phong_desc phong = {0.2, 0.6, 0.4, 7, {0.8, 0.5, 0.2}, {1.0, 0.5, 0.25}};
   Vector pos, normal, texture, view;
@@ -425,6 +455,31 @@ static void deformation(void) {
   sipp_pixmap_destruct(image);
 }
 
+static void own_normals_survive_deformation(void) {
+  Surf_desc matt;
+  Surface* surface;
+  Sipp_pixmap* image;
+  double height = 0.1;
+  int i;
+  current = "own normals";
+  start();
+  lightsource_create(0.0, 0.0, 1.0, 1.0, 1.0, 1.0, LIGHT_DIRECTION);
+  matt = white;
+  matt.ambient = 0.0;
+  for (i = 0; i < 4; i++) {
+    vertex_n_push(i == 0 || i == 3 ? -1.0 : 1.0, i < 2 ? -1.0 : 1.0, 0.0, 3.0, 0.0, 4.0);
+  }
+  polygon_push();
+  surface = surface_create(&matt, (Shader*)basic_shader);
+  show(surface);
+  for (i = 0; i < 2; i++) {
+    image = draw(20, PHONG);
+    EXPECT(level(image, 10, 10, 0) == 204); /* 0.8 */
+    sipp_pixmap_destruct(image);
+    surface_set_ffd(surface, (FFD_func*)lift, &height);
+  }
+}
+
 /* ---- order of pixels, fields, files */
 
 static int pixel_count, first_row, last_row, last_x, in_order;
@@ -455,6 +510,12 @@ static long size_of_file(int mode, int field, char* head, int length) {
   return size;
 }
 
+static int wanted_pixels;
+static void stop_soon(void* data, int x, int y, int r, int g, int b) {
+  (void)data, (void)x, (void)y, (void)r, (void)g, (void)b;
+  if (++pixel_count == wanted_pixels) sipp_render_terminate();
+}
+
 static void fields_and_files(void) {
   char head[200];
   current = "fields and files";
@@ -467,6 +528,9 @@ static void fields_and_files(void) {
   EXPECT(pixel_count == 21 && first_row == 0 && last_row == 4);
   count(TOP_TO_BOTTOM, ODD);
   EXPECT(pixel_count == 14 && first_row == 1 && last_row == 3);
+  pixel_count = 0, wanted_pixels = 3;
+  render_image_func(7, 5, (void (*)())stop_soon, NULL, FLAT, 1);
+  EXPECT(pixel_count == 3);
   EXPECT(size_of_file(PHONG, BOTH, head, 200) == (long)(strstr(head, "\n255\n") - head + 5 + 105));
   EXPECT(strncmp(head, "P6\n#", 4) == 0 && strstr(head, "\n7\n5\n255\n") != NULL);
   size_of_file(PHONG, EVEN, head, 200);
@@ -518,6 +582,16 @@ static void update(void* data) {
   if (updates == stop_after) sipp_render_terminate();
 }
 
+static void stopping_shader(Vector* pos, Vector* normal, Vector* texture, Vector* view_vec,
+                            Lightsource* light_list, void* desc, Color* color, Color* opacity) {
+  (void)pos, (void)normal, (void)texture, (void)view_vec, (void)light_list, (void)desc, (void)color,
+      (void)opacity;
+  if (++calls == 5) sipp_render_terminate();
+}
+static void nothing(void* data) {
+  (void)data;
+}
+
 static void updates_and_giving_up(void) {
   int seen = 0;
   Surf_desc bright;
@@ -542,7 +616,18 @@ static void updates_and_giving_up(void) {
   image = draw(50, PHONG);
   EXPECT(updates == 20 && level(image, 25, 25, 0) == 255);
   sipp_pixmap_destruct(image);
+  start();
+  show(square(0.0, NULL, (Shader*)stopping_shader));
+  sipp_set_update_callback(nothing, NULL, 1000000);
+  calls = 0;
+  sipp_pixmap_destruct(draw(50, PHONG));
+  EXPECT(calls == 5);
   sipp_set_update_callback(NULL, NULL, 0);
+  calls = 0;
+  sipp_pixmap_destruct(draw(50, PHONG));
+  EXPECT(calls == 5);
+  start();
+  show(square(0.0, &bright, (Shader*)basic_shader));
   updates = 0;
   image = draw(50, PHONG);
   EXPECT(updates == 0 && level(image, 25, 25, 0) == 255);
@@ -680,8 +765,10 @@ int main(void) {
   shaders_of_the_program();
   transparency_adds_up();
   masks_and_bumps();
+  lights_in_shaders_of_the_program();
   called_shaders_equal_bound_ones();
   deformation();
+  own_normals_survive_deformation();
   fields_and_files();
   line_mode();
   updates_and_giving_up();

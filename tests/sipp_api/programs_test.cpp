@@ -14,6 +14,7 @@
 #include "export/image_compare.h"
 #include "export/image_reader.h"
 #include "parse_nff/parse_nff.h"
+#include "scene/bounds.h"
 #include "scene/traverse.h"
 #include "support/shell.h"
 
@@ -194,6 +195,24 @@ TEST(SippCapture, CanDrawAsWell) {
             0);
   EXPECT_EQ(read_file(folder / "alone.ppm"), read_file(folder / "torus.ppm"));
   EXPECT_FALSE(read_file(folder / "torus.nff").empty());
+}
+
+TEST(SippCapture, NumbersTheScenesOfASequence) {
+  TemporaryFolder folder;
+  ASSERT_EQ(run(folder, program("walk") + " -s 32").status, 0);
+  EXPECT_FALSE(read_file(folder / "walk0.ppm").empty());
+  EXPECT_TRUE(read_file(folder / "walk1.ppm").empty());
+  EXPECT_FALSE(read_file(folder / "walk2.ppm").empty());
+  double x = 0.5;  // of the block in the second image
+  for (const std::string file : {"walk.nff", "", "frame.nff", "frame-2.nff", "frame-3.nff"}) {
+    if (!file.empty()) {
+      const auto scene = read_nff(folder / file);
+      ASSERT_TRUE(scene) << file;
+      const Bounds box = world_bounds(*scene).value();
+      EXPECT_NEAR((box.low.x + box.high.x) / 2, x, 1e-12) << file;
+    }
+    x += 0.5;
+  }
 }
 
 TEST(SippCapture, SaysWhatItCannotDo) {
