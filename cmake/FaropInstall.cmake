@@ -12,6 +12,7 @@ endforeach()
 install(TARGETS farop_sipp_model farop_sipp EXPORT farop-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/sipp_api/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/farop-sipp)
+file(RELATIVE_PATH sipp_up /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
 configure_file(${PROJECT_SOURCE_DIR}/cmake/sipp.pc.in ${PROJECT_BINARY_DIR}/sipp.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/sipp.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 install(TARGETS farop_rasterizer_abi EXPORT farop-targets)
