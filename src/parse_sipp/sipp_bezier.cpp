@@ -34,7 +34,7 @@ bool usable(std::span<const V3d> points, std::span<const int> indices, std::size
 std::shared_ptr<Object> bezier_patches(std::span<const V3d> points, std::span<const int> patches,
                                        int resolution, const ShapeLook& look) {
   if (!usable(points, patches, 16, resolution)) return nullptr;
-  const double patch_count = static_cast<double>(patches.size() / 16);
+  const double patch_count = static_cast<double>(patches.size()) / 16;
   ShapeBuilder shape("set of Bezier patches", patch_count * resolution * resolution, look);
   const auto side = static_cast<std::size_t>(resolution) + 1;
   const double step = 1.0 / resolution;
@@ -68,7 +68,7 @@ std::shared_ptr<Object> bezier_patches(std::span<const V3d> points, std::span<co
 std::shared_ptr<Object> bezier_rotcurves(std::span<const V3d> points, std::span<const int> curves,
                                          int resolution, const ShapeLook& look) {
   if (!usable(points, curves, 4, resolution)) return nullptr;
-  const double curve_count = static_cast<double>(curves.size() / 4);
+  const double curve_count = static_cast<double>(curves.size()) / 4;
   ShapeBuilder shape("set of rotational curves", curve_count * 4 * resolution * resolution, look);
   const int around = 4 * resolution;
   const double angle = 2 * k_pi / around;

@@ -122,7 +122,7 @@ std::shared_ptr<Object> ellipsoid(const V3d& radii, int resolution, const ShapeL
     fan_polygon(shape, upper, upper_texture, i, i + 1, V3d(0, 0, radii.z), V3d(0, 1, 0));
   }
   for (int j = 1; j < rings; ++j) {
-    const double angle = (j + 1) * k_pi / (count / 2);
+    const double angle = (j + 1) * k_pi / (0.5 * count);
     Columns lower = ring_at(std::sin(angle), radii.z * std::cos(angle));
     Columns lower_texture = textures_of(lower);
     // SIPP 3.1 gives both edges of a band the v of the lower one, but for the cylindrical mapping.

@@ -41,7 +41,7 @@ Capture& the_capture() {
     auto* const c = new Capture;
     if (const char* const file = std::getenv("FAROP_CAPTURE")) set_file(*c, file, "FAROP_CAPTURE");
     const char* const draw = std::getenv("FAROP_CAPTURE_DRAW");
-    c->draw_too = draw != nullptr && std::string(draw) != "" && std::string(draw) != "0";
+    c->draw_too = draw != nullptr && *draw != '\0' && std::string(draw) != "0";
     return c;
   }();
   return *capture;

@@ -28,7 +28,7 @@
 #include "shaders.h"
 
 /// SIPP's Surface: geometry, and what will shade and deform it once something is rendered.
-struct sipp_surface {
+struct SippSurface {
   std::shared_ptr<farop::Surface> geometry;
   std::vector<bool> own_normals;  ///< per vertex: its normal was given; empty: none was
   Shader* shader = nullptr;

@@ -51,7 +51,7 @@ void drop(::Object* object) {
   for (int i = 0; i < object.num_surfaces; ++i) {
     ::Surface* surface = object.surfaces[i];
     if (copy_surfaces) {
-      auto* const own = new sipp_surface(*surface);
+      auto* const own = new SippSurface(*surface);
       own->geometry = std::make_shared<farop::Surface>(*surface->geometry);
       own->ref_count = 0;
       if (own->header != nullptr) ++own->header->ref_count;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "primitives.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "library_internal.h"
@@ -42,6 +43,7 @@ template <class Make>
 
 std::vector<V3d> points_of(int count, const Vector* points) {
   std::vector<V3d> out;
+  out.reserve(static_cast<std::size_t>(std::max(count, 0)));
   for (int i = 0; i < count; ++i) out.push_back(to_vector(points[i]));
   return out;
 }
@@ -101,6 +103,7 @@ using sipp::ShapeLook;
                      int texture) {
   return primitive(description, shader, texture, [&](const ShapeLook& look) {
     std::vector<farop::V2d> outline;
+    outline.reserve(static_cast<std::size_t>(std::max(count, 0)));
     for (int i = 0; i < count; ++i) outline.emplace_back(points[i].x, points[i].y);
     return sipp::prism(outline, length, look);
   });

@@ -39,7 +39,7 @@ class RenderingScope {
 };
 
 void check(const RenderRequest& r) {
-  const auto refuse = [](std::string what, std::string hint) {
+  const auto refuse = [](const std::string& what, std::string hint) {
     throw Error(ExitStatus::input, what, std::move(hint));
   };
   if (r.width < 1 || r.height < 1 || r.width > k_max_resolution || r.height > k_max_resolution) {

@@ -40,7 +40,7 @@ void bind_basic(::Surface& surface, double ambient, double specular, double c3, 
 }  // namespace
 
 ::Surface* new_surface(std::shared_ptr<farop::Surface> geometry, void* description, ::Shader* shader) {
-  auto surface = std::make_unique<sipp_surface>();
+  auto surface = std::make_unique<SippSurface>();
   surface->geometry = std::move(geometry);
   surface->ref_count = state().user_refcount ? 1 : 0;
   bind(*surface, description, shader);

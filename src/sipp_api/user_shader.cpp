@@ -44,7 +44,8 @@ class UserShader : public farop::Shader {
     constexpr int side = 4, count = side * side * side;
     for (int i = 0; i < count; ++i) {
       Vector up{0, 0, 1}, across{1, 0, 0};
-      Vector position{0.37 * (i % side), 0.37 * (i / side % side), 0.37 * (i / (side * side))};
+      const int column = i % side, row = i / side % side, layer = i / (side * side);
+      Vector position{0.37 * column, 0.37 * row, 0.37 * layer};
       Vector texture = position;
       const Shaded dark = call(position, up, texture, across, nullptr);
       const Shaded lit = call(position, up, texture, across, &light);

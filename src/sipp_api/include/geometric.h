@@ -24,7 +24,7 @@
 #define EXTERN SIPP_LINKAGE SIPP_PUBLIC
 #endif
 #ifndef _ANSI_ARGS_
-#define _ANSI_ARGS_(arguments) arguments
+#define _ANSI_ARGS_(arguments) arguments /* NOLINT: SIPP has this name */
 #endif
 #ifndef CONST
 #define CONST const

@@ -7,9 +7,10 @@
 
 EXTERN Sipp_bool noise_ready;
 
-EXTERN void noise_init _ANSI_ARGS_((void));            /* draws them now, or anew */
-EXTERN double noise _ANSI_ARGS_((Vector * position));  /* -1 < noise < 1 */
-EXTERN Vector Dnoise _ANSI_ARGS_((Vector * position)); /* its gradient */
+EXTERN void noise_init _ANSI_ARGS_((void));           /* draws them now, or anew */
+EXTERN double noise _ANSI_ARGS_((Vector * position)); /* -1 < noise < 1 */
+/* Its gradient. */
+EXTERN Vector Dnoise _ANSI_ARGS_((Vector * position)); /* NOLINT: SIPP has this name */
 EXTERN double turbulence _ANSI_ARGS_((Vector * position, int octaves));
 
 #endif

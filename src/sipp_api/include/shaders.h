@@ -57,9 +57,11 @@ typedef struct {
   Sipp_bool (*masker)();
 } Mask_desc;
 
+/* NOLINTBEGIN(bugprone-macro-parentheses): `type` is one */
 #define SIPP_SHADER_ARGS_(type)                                                                   \
   (Vector * position, Vector * normal, Vector * texture, Vector * view_vec, Lightsource * lights, \
    type * description, Color * color, Color * opacity)
+/* NOLINTEND(bugprone-macro-parentheses) */
 
 EXTERN void phong_shader _ANSI_ARGS_(SIPP_SHADER_ARGS_(Phong_desc));
 EXTERN void strauss_shader _ANSI_ARGS_(SIPP_SHADER_ARGS_(Strauss_desc));

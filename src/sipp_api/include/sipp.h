@@ -87,26 +87,26 @@ typedef void Shader();
 typedef void FFD_func _ANSI_ARGS_((void* data, Vector* pos, Vector* tex, Vector* new_pos, Vector* new_tex));
 typedef void Update_func _ANSI_ARGS_((void* client_data));
 
-typedef struct sipp_surface Surface; /* opaque */
+typedef struct SippSurface Surface; /* opaque */
 
-typedef struct sipp_object {
+typedef struct SippObject {
   Surface** surfaces;
   int num_surfaces;
   int max_surfaces;
-  struct sipp_object** sub_objs;
+  struct SippObject** sub_objs;
   int num_sub_objs;
   int max_sub_objs;
   Transf_mat transf;
   int ref_count;
 } Object;
 
-typedef struct sipp_lightsource {
+typedef struct SippLightsource {
   Color color;
   Sipp_bool active;
   int type;
   void* info;   /* the library's */
   void* shadow; /* the library's */
-  struct sipp_lightsource* next;
+  struct SippLightsource* next;
 } Lightsource;
 
 EXTERN char* SIPP_VERSION;
