@@ -118,7 +118,7 @@ void PolygonFiller::fill_span(const Span& span, const SurfaceLook& look, std::ui
                    span.width);
   const std::size_t first = buffer_.index(span.first, edge_table_.row());
   const auto count = static_cast<std::size_t>(span.end - span.first);
-  std::uint64_t visible = 0;
+  std::uint64_t visible = 0, lit_now = 0, transparent = 0;
 
   const auto for_each_visible = [&](auto&& draw) {
     for (std::size_t i = 0; i < count; ++i) {
@@ -144,19 +144,28 @@ void PolygonFiller::fill_span(const Span& span, const SurfaceLook& look, std::ui
       if (!opaque_) {
         const LitFragment lit =
             lit_fragment(look, shading_, place.position, normal.at(distance), place.texture);
+        ++lit_now;
+        if (lit.opacity.x >= 1 && lit.opacity.y >= 1 && lit.opacity.z >= 1) {
+          // Not known before it was lit: it hides what is behind like any opaque sample, but has its colour.
+          buffer_.samples[sample] = {lit.color, z};
+          buffer_.points[sample].material = 0;
+          return;
+        }
         buffer_.fragments.add(sample, buffer_.samples.size(), z, lit.color, lit.opacity);
+        ++transparent;
         return;
       }
       buffer_.samples[sample] = {V3f(normal.at(distance)), z};
       buffer_.points[sample] = {V3f(place.position), look_number};
       if (textured_) buffer_.textures[sample] = V3f(place.texture);
     });
-    if (!opaque_) counts_.reflections += visible;
+    counts_.reflections += lit_now;
   } else if (!opaque_) {
     const Ramp color = ramp(&Attributes::color), opacity = ramp(&Attributes::opacity);
     for_each_visible([&](std::size_t sample, double distance, std::int32_t z) {
       buffer_.fragments.add(sample, buffer_.samples.size(), z, V3f(color.at(distance)),
                             V3f(opacity.at(distance)));
+      ++transparent;
     });
   } else {
     const Ramp color = ramp(&Attributes::color);
@@ -165,7 +174,7 @@ void PolygonFiller::fill_span(const Span& span, const SurfaceLook& look, std::ui
       if (phong_) buffer_.points[sample].material = look_number;
     });
   }
-  if (!opaque_) counts_.transparent_fragments += visible;
+  counts_.transparent_fragments += transparent;
   counts_.fragments += count;
   counts_.visible_fragments += visible;
 }
