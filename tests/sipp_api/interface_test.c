@@ -319,6 +319,45 @@ static void shaders_of_the_program(void) {
   sipp_pixmap_destruct(image);
 }
 
+static void half_shader(Vector* pos, Vector* normal, Vector* texture, Vector* view_vec,
+                        Lightsource* light_list, void* desc, Color* color, Color* opacity) {
+  (void)pos, (void)normal, (void)view_vec, (void)light_list, (void)desc;
+  color->red = color->grn = color->blu = texture->y > 0.5 ? 1.0 : 0.25;
+  opacity->red = opacity->grn = opacity->blu = 1.0;
+}
+
+static void textures_are_in_perspective(void) {
+  Object* object;
+  Sipp_pixmap* image;
+  int row, middle = -1;
+  current = "perspective";
+  start();
+  object = show(square(0.0, NULL, (Shader*)half_shader));
+  object_scale(object, 4.0, 4.0, 1.0);
+  object_rot_x(object, -75.0 * M_PI / 180.0);
+  image = draw(101, PHONG);
+  for (row = 1; row < 101; row++) {
+    if (level(image, 50, row, 0) == 64 && level(image, 50, row - 1, 0) == 255) middle = row;
+  }
+  EXPECT(abs(middle - 50) <= 1); /* linear on the screen it would be 9 rows off */
+  sipp_pixmap_destruct(image);
+}
+
+static void opaque_answers_hide(void) {
+  Surf_desc bright;
+  Sipp_pixmap* image;
+  current = "opaque answers";
+  start();
+  bright = white;
+  bright.ambient = 1.0;
+  show(square(0.0, NULL, (Shader*)half_shader));
+  show(square(-0.5, &bright, (Shader*)basic_shader));
+  show(square(-1.0, NULL, (Shader*)half_shader));
+  image = draw(40, PHONG);
+  EXPECT(level(image, 20, 24, 0) == 64);
+  sipp_pixmap_destruct(image);
+}
+
 static void transparency_adds_up(void) {
   Surf_desc half;
   Sipp_pixmap* image;
@@ -763,6 +802,8 @@ int main(void) {
   cameras();
   late_binding();
   shaders_of_the_program();
+  textures_are_in_perspective();
+  opaque_answers_hide();
   transparency_adds_up();
   masks_and_bumps();
   lights_in_shaders_of_the_program();
