@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Pixmaps and bitmaps in memory.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
@@ -14,6 +15,29 @@ bool usable(int width, int height) {
   if (width > 0 && height > 0) return true;
   farop::sipp_api::message(fmt::format("an image of {} x {} pixels", width, height));
   return false;
+}
+
+/// Cuts a line to the surroundings of an image, unless it lies in them; false: nothing is left.
+bool cut_to(const Sipp_bitmap& bitmap, int& x1, int& y1, int& x2, int& y2) {
+  constexpr int margin = 32768;
+  const double low = -margin, high_x = bitmap.width + margin, high_y = bitmap.height + margin;
+  const auto near_by = [&](int x, int y) { return x >= low && x <= high_x && y >= low && y <= high_y; };
+  if (near_by(x1, y1) && near_by(x2, y2)) return true;
+  const double dx = static_cast<double>(x2) - x1, dy = static_cast<double>(y2) - y1;
+  double enter = 0, leave = 1;
+  const auto side = [&](double direction, double distance) {  // inside where direction * t <= distance
+    if (direction == 0) return distance >= 0;
+    (direction < 0 ? enter : leave) =
+        direction < 0 ? std::max(enter, distance / direction) : std::min(leave, distance / direction);
+    return enter <= leave;
+  };
+  const double ox = x1, oy = y1;
+  if (!side(-dx, ox - low) || !side(dx, high_x - ox) || !side(-dy, oy - low) || !side(dy, high_y - oy)) {
+    return false;
+  }
+  x1 = static_cast<int>(std::lround(ox + enter * dx)), y1 = static_cast<int>(std::lround(oy + enter * dy));
+  x2 = static_cast<int>(std::lround(ox + leave * dx)), y2 = static_cast<int>(std::lround(oy + leave * dy));
+  return true;
 }
 
 void blacken(Sipp_bitmap& bitmap, int x, int y) {
@@ -78,9 +102,11 @@ void sipp_bitmap_destruct(Sipp_bitmap* bitmap) {
   sfree(bitmap->buffer);
   sfree(bitmap);
 }
-// J. Bresenham, "Algorithm for Computer Control of a Digital Plotter", IBM Systems Journal 4(1), 1965.
+// What lies far outside is cut off first, or its way would be long: Y. Liang, B. Barsky, "A New Concept and
+// Method for Line Clipping", ACM TOG 3(1), 1984. J. Bresenham, "Algorithm for Computer Control of a Digital
+// Plotter", IBM Systems Journal 4(1), 1965.
 void sipp_bitmap_line(Sipp_bitmap* bitmap, int x1, int y1, int x2, int y2) {
-  if (bitmap == nullptr) return;
+  if (bitmap == nullptr || !cut_to(*bitmap, x1, y1, x2, y2)) return;
   const std::int64_t dx = std::abs(std::int64_t{x2} - x1), dy = std::abs(std::int64_t{y2} - y1);
   const int step_x = x1 < x2 ? 1 : -1, step_y = y1 < y2 ? 1 : -1;
   std::int64_t error = dx - dy;

@@ -66,6 +66,12 @@ DrawMode draw_mode(int mode) {
 void make_shadow_maps(const Scene& scene, int size) {
   std::shared_ptr<const ShadowJitter> jitter;
   std::size_t i = 0;
+  const auto maps = std::count_if(scene.lights.begin(), scene.lights.end(), casts_shadows);
+  const double side = std::min(size, k_max_shadow_size);
+  if (static_cast<double>(maps) * side * side > static_cast<double>(k_max_shadow_texels)) {
+    throw Error(ExitStatus::input, fmt::format("{} shadow maps of {} x {} texels", maps, size, size),
+                "give sipp_shadows a smaller size");
+  }
   for (const Lightsource* light = state().lights; light != nullptr; light = light->next) {
     farop::Light seen = scene.lights[i++];
     seen.shadow_size = size;

@@ -611,6 +611,11 @@ static void line_mode(void) {
   EXPECT(black == 4 * 18);
   EXPECT((bitmap->buffer[11 * 6 + 11 / 8] & (0x80 >> (11 % 8))) != 0);
   sipp_bitmap_line(bitmap, -5, -5, 60, 50); /* clipped */
+  memset(bitmap->buffer, 0, 41 * 6);
+  sipp_bitmap_line(bitmap, -2000000000, -2000000000, 2000000000, 2000000000);
+  sipp_bitmap_line(bitmap, -2000000000, 50, 2000000000, 2000000000);
+  for (i = 0, black = 0; i < 41 * 6 * 8; i++) black += (bitmap->buffer[i / 8] >> (7 - i % 8)) & 1;
+  EXPECT(black == 41 && (bitmap->buffer[40 * 6 + 5] & 0x80) != 0);
   sipp_bitmap_destruct(bitmap);
 }
 
