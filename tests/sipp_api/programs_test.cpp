@@ -141,6 +141,19 @@ TEST(SippCapture, KeepsPlacesMaterialsAndTheView) {
   EXPECT_EQ(first.positions[0], V3d(-2, -1, 2));
 }
 
+TEST(SippCapture, KnowsSippsShadersInProgramsAtFixedAddressesToo) {
+  TemporaryFolder folder;
+  for (const std::string kind : {"gnu89", "fixed"}) {
+    const Outcome outcome = run(folder, "FAROP_CAPTURE=lattice.nff " + program("lattice", kind) + " -s 64");
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(outcome.err.find("functions of the program"), std::string::npos) << kind << outcome.err;
+    EXPECT_NE(outcome.err.find("bumpy"), std::string::npos) << kind << outcome.err;
+    const auto scene = read_nff(folder / "lattice.nff");
+    ASSERT_TRUE(scene);
+    EXPECT_EQ(scene->root.children[0]->surfaces[0]->material.color, (Rgb{0.8, 0.6, 0.3})) << kind;
+  }
+}
+
 TEST(SippCapture, AsksShaderFunctionsWhatTheyScatter) {
   TemporaryFolder folder;
   const Outcome outcome = run(folder, "FAROP_CAPTURE=holes.nff " + program("holes") + " -s 64");
