@@ -26,6 +26,7 @@
 #include "core/statistics.h"
 #include "crash_handler.h"
 #include "plugin/host_services.h"
+#include "plugin/plugin_check.h"
 #include "plugin/plugin_library.h"
 #include "plugin/polygon_chunk.h"
 #include "walls.h"
@@ -69,6 +70,7 @@ FloatState float_state() {
 FloatState g_float;
 std::uint32_t g_warnings = 0;
 const farop_rasterizer* g_table = nullptr;
+decltype(farop_rasterizer::polygon) g_polygon = nullptr;  ///< the table's, or that of the check before it
 
 /// Puts the processor's settings back after every call, so that a polygon is drawn alike whatever an earlier
 /// one has left behind.
@@ -111,7 +113,7 @@ class Barrier {
 
 farop_status call_polygon(void* self, const farop_polygon* polygon) {
   Barrier barrier;
-  const farop_status status = g_table->polygon(self, polygon);
+  const farop_status status = g_polygon(self, polygon);
   barrier.pass();
   settle();
   return status;
@@ -354,6 +356,7 @@ class Cage {
         return load();
       case RequestKind::create:
         return answer(Phase::create, [&] {
+          if (check_) return check_->create(services_.host());
           return g_table->create == nullptr ? FAROP_OK : g_table->create(services_.host(), &self_);
         });
       case RequestKind::begin_frame:
@@ -363,10 +366,10 @@ class Cage {
       case RequestKind::end_frame:
         if (frame_lost_) return;
         return answer(
-            Phase::end_frame, [&] { return g_table->end_frame(self_); }, [&] { bury_frame(); });
+            Phase::end_frame, [&] { return table_.end_frame(self_); }, [&] { bury_frame(); });
       case RequestKind::quit:
         box_->phase = Phase::destroy;
-        if (g_table != nullptr && g_table->destroy != nullptr) g_table->destroy(self_);
+        if (table_.destroy != nullptr) table_.destroy(self_);
         std::exit(0);
     }
     std::_Exit(k_exit_control);
@@ -413,6 +416,8 @@ class Cage {
     if (g_table != nullptr) {
       note_modules(path);
       table_ = *g_table;
+      if (settings_.check != 0) put_check_before(*g_table);
+      g_polygon = table_.polygon;
       table_.polygon = call_polygon;
     }
     Loaded message;
@@ -429,6 +434,21 @@ class Cage {
     put(message.hint, library_.hint);
     put(message.warning, library_.warning);
     send(&message, sizeof message);
+  }
+
+  void put_check_before(const farop_rasterizer& table) {
+    check_.emplace(table, [this](const ContractFinding& finding) {
+      CheckFinding message;
+      message.reply = reply(ReplyKind::finding, serial_);
+      message.reply.polygon = finding.polygon.value_or(0);
+      message.has_polygon = finding.polygon ? 1 : 0;
+      message.of_host = finding.of_host ? 1 : 0;
+      put(message.verdict, finding.verdict);
+      put(message.message, finding.message);
+      send(&message, sizeof message);
+    });
+    table_ = check_->table();
+    self_ = check_->self();
   }
 
   void begin_frame(const Request& request, std::optional<int>& memory) {
@@ -462,7 +482,7 @@ class Cage {
       known.live = true;
       frame.pixels = static_cast<std::uint8_t*>(pointer(known.begin));
     }
-    answer(Phase::begin_frame, [&] { return g_table->begin_frame(self_, &frame); });
+    answer(Phase::begin_frame, [&] { return table_.begin_frame(self_, &frame); });
   }
 
   void chunk(const Request& request, std::optional<int>& memory) {
@@ -533,7 +553,8 @@ class Cage {
   HostServices services_;
   BlackBox* box_ = nullptr;
   PluginLibrary library_;
-  farop_rasterizer table_{};
+  farop_rasterizer table_{};  ///< the rasterizer's functions, or those of the check before it
+  std::optional<PluginCheck> check_;
   void* self_ = nullptr;
   std::uint32_t serial_ = 0;
   bool frame_lost_ = true;

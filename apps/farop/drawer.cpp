@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "command_rasterizer.h"
@@ -65,6 +66,12 @@ PluginLog log_to(Console& console) {
   };
 }
 
+void tell(Console& console, const std::string& name, const std::vector<PluginFinding>& findings) {
+  for (const PluginFinding& finding : findings) {
+    console.notice(fmt::format("rasterizer '{}': {} ({})", name, finding.message, finding.verdict));
+  }
+}
+
 /// A user's library, called in this process.
 class LibraryDrawer : public Drawer {
  public:
@@ -82,7 +89,17 @@ class LibraryDrawer : public Drawer {
     if (!rasterizer_.draws_here()) return std::nullopt;
     return rasterizer_.take();
   }
-  void report(RunReport::Raster& report) override { report.calls = rasterizer_.times(); }
+  void report(RunReport::Raster& report) override {
+    report.calls = rasterizer_.times();
+    for (const ContractFinding& found : rasterizer_.findings()) {
+      PluginFinding finding;
+      finding.warning = true;
+      finding.of_host = found.of_host;
+      finding.verdict = found.verdict, finding.message = found.message, finding.polygon = found.polygon;
+      report.findings.push_back(std::move(finding));
+    }
+    tell(console_, library_.name, report.findings);
+  }
 
  private:
   static PluginLibrary open(Session& session, const std::string& file, const std::string& path,
@@ -133,9 +150,8 @@ class IsolatedDrawer : public Drawer {
     for (const IsolationLayer& layer : run.layers) {
       if (layer.holds) report.walls.push_back(layer.id);
     }
-    for (const PluginFinding& finding : rasterizer_->findings()) {
-      console_.notice(fmt::format("rasterizer '{}': {} ({})", name(), finding.message, finding.verdict));
-    }
+    report.findings = rasterizer_->findings();
+    tell(console_, name(), report.findings);
     show_output("standard output", run.out);
     show_output("standard error", run.err);
   }
@@ -182,7 +198,12 @@ class FlatShading : public Drawer, ScreenPolygonSink {
 
 }  // namespace
 
-void check_drawing(const ChosenRasterizer& rasterizer, const DrawerOptions& options) {
+void check_drawing(const ChosenRasterizer& rasterizer, const RasterizerOptions& how,
+                   const DrawerOptions& options) {
+  if (how.check && rasterizer.kind != RasterizerKind::library) {
+    throw Error(ExitStatus::usage, "--check looks at the calls of a library, and none is to draw",
+                "give --rasterizer NAME or FILE.so");
+  }
   if (rasterizer.kind == RasterizerKind::internal) return;
   if (options.mode == DrawMode::line || options.mode == DrawMode::phong) {
     throw Error(ExitStatus::usage, "modes line and phong exist in the internal rasterizer only",
@@ -196,6 +217,17 @@ void check_drawing(const ChosenRasterizer& rasterizer, const DrawerOptions& opti
   if (rasterizer.kind != RasterizerKind::library) return;
   const PluginLibrary library = inspect_plugin_file(loadable(rasterizer.file, {}).library);
   if (library.failure != LoadFailure::none) throw load_error(rasterizer.file, library);
+}
+
+void end_of_check(const RunReport::Raster& report, const RasterizerOptions& how) {
+  if (!how.check || report.findings.empty()) return;
+  const bool ours = std::ranges::any_of(report.findings, &PluginFinding::of_host);
+  const std::size_t count = report.findings.size();
+  throw Error(ours ? ExitStatus::internal : ExitStatus::input,
+              fmt::format("--check found {} {} of the contract with rasterizer '{}'", count,
+                          count == 1 ? "breach" : "breaches", report.rasterizer),
+              ours ? "please report it"
+                   : "the notes above say which; the contract is farop/rasterizer.h (`farop plugins --abi`)");
 }
 
 std::unique_ptr<Drawer> make_drawer(Session& session, const ChosenRasterizer& rasterizer,
@@ -220,7 +252,7 @@ std::unique_ptr<Drawer> make_drawer(Session& session, const ChosenRasterizer& ra
     case RasterizerKind::library: {
       const LoadableRasterizer what = loadable(rasterizer.file, plugin_options(how));
       TraceLog* const trace = session.options.trace_file.empty() ? nullptr : &session.trace;
-      const PluginDrawing drawing{options.samples, options.background, trace};
+      const PluginDrawing drawing{options.samples, options.background, trace, how.check};
       if (how.in_process) {
         drawer = std::make_unique<LibraryDrawer>(session, rasterizer.file, what, drawing);
       } else {

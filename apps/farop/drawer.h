@@ -41,7 +41,12 @@ struct DrawerOptions {
 };
 
 /// Throws Error(usage) for what the chosen rasterizer cannot do: before any input is read.
-void check_drawing(const ChosenRasterizer& rasterizer, const DrawerOptions& options);
+void check_drawing(const ChosenRasterizer& rasterizer, const RasterizerOptions& how,
+                   const DrawerOptions& options);
+
+/// The last step of a command: throws Error(input) when --check is given and found something, Error(internal)
+/// when that was farop's fault.
+void end_of_check(const RunReport::Raster& report, const RasterizerOptions& how);
 
 /// Loads or prepares the rasterizer. Throws Error(plugin) when it cannot be loaded.
 std::unique_ptr<Drawer> make_drawer(Session& session, const ChosenRasterizer& rasterizer,

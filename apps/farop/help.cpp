@@ -8,7 +8,7 @@
 namespace farop::app {
 namespace {
 
-constexpr std::size_t k_signature_width = 36;
+constexpr std::size_t k_signature_width = 39;
 constexpr std::size_t k_line_width = 105;
 
 bool hidden(const CLI::App& command) {

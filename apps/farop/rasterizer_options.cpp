@@ -55,11 +55,21 @@ std::string text_file(const std::string& path) {
   return text;
 }
 
+/// What `scanline` means: the one that ships with the explanations, called as a user's is.
+std::string readable_reference() {
+  const fs::path file = library_file("plugins") / "scanline_fill.so";
+  if (!fs::exists(file)) {
+    throw Error(ExitStatus::plugin, fmt::format("{}, which 'scanline' stands for, is missing", file.string()),
+                "reinstall farop");
+  }
+  return file;
+}
+
 ChosenRasterizer look_up(const RasterizerOptions& options) {
   const std::vector<FoundLibrary> libraries = find_libraries(options.folders);
   const auto found = std::ranges::find(libraries, options.name, &FoundLibrary::name);
   if (found != libraries.end()) return {RasterizerKind::library, found->file, {}};
-  std::vector<std::string> names = {"internal", "null"};
+  std::vector<std::string> names = {"internal", "null", "scanline"};
   for (const FoundLibrary& library : libraries) names.push_back(library.name);
   const std::string near = did_you_mean(options.name, names);
   const std::string name = printable(options.name);
@@ -75,7 +85,8 @@ ChosenRasterizer look_up(const RasterizerOptions& options) {
 void add_rasterizer_options(CLI::App& command, RasterizerOptions& options) {
   const auto group = [](CLI::Option* option) { return option->group("Rasterizer"); };
   group(
-      command.add_option("--rasterizer", options.name, "internal, null (draws nothing), or yours [internal]")
+      command
+          .add_option("--rasterizer", options.name, "internal, scanline, null (draws none), yours [internal]")
           ->type_name("NAME|FILE.so|FILE.py"));
   group(command.add_option("--cmd", options.command, "a program: reads a flat file, writes a PPM")
             ->type_name("'PROGRAM {flat} {ppm}'"));
@@ -100,6 +111,8 @@ void add_rasterizer_options(CLI::App& command, RasterizerOptions& options) {
             ->check(CLI::PositiveNumber)
             ->type_name("MB"));
   group(command.add_flag("--in-process", options.in_process, "call it in this process, for debuggers"));
+  group(
+      command.add_flag("--check", options.check, "look at both sides of every call; status 1 for findings"));
 }
 
 std::map<std::string, std::string> plugin_options(const RasterizerOptions& options) {
@@ -129,6 +142,7 @@ IsolationOptions isolation_options(const RasterizerOptions& options, PluginLog l
   if (options.memory_megabytes)
     limits.memory_bytes = static_cast<std::uint64_t>(*options.memory_megabytes * 1e6);
   isolation.log = std::move(log);
+  isolation.check = options.check;
   return isolation;
 }
 
@@ -186,6 +200,7 @@ ChosenRasterizer choose_rasterizer(const RasterizerOptions& options) {
   }
   if (options.name == "internal") return {};
   if (options.name == "null") return {RasterizerKind::null, {}, {}};
+  if (options.name == "scanline") return {RasterizerKind::library, readable_reference(), {}};
   if (is_file_name(options.name)) return {RasterizerKind::library, options.name, {}};
   return look_up(options);
 }

@@ -14,11 +14,12 @@
 namespace farop::app {
 
 struct RasterizerOptions {
-  std::string name = "internal";        ///< "internal", "null", a name that is looked up, or a file
+  std::string name = "internal";        ///< "internal", "null", "scanline", one that is looked up, a file
   std::string command;                  ///< --cmd
   std::vector<std::string> key_values;  ///< --plugin-option K=V
   std::vector<std::string> folders;     ///< -I
   bool in_process = false;
+  bool check = false;
   std::string isolation = "auto";
   std::optional<double> cpu_seconds, wall_seconds;  ///< per frame
   std::optional<double> memory_megabytes;

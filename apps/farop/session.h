@@ -10,6 +10,7 @@
 #include "console.h"
 #include "core/statistics.h"
 #include "geometry/pipeline.h"
+#include "isolate/isolation.h"
 #include "options.h"
 #include "plugin/plugin_rasterizer.h"
 #include "scene/scene.h"
@@ -41,6 +42,8 @@ struct RunReport {
     int samples = 1;
     std::optional<PluginTimes> calls;  ///< of a user's library
     std::vector<std::string> walls;    ///< layers of isolation that stood
+    /// What a user's library did that it should not have done, and yet drew on.
+    std::vector<PluginFinding> findings;
   };
   std::optional<Raster> raster;
   bool sink_writes = false;  ///< the polygons went to a file, not to a rasterizer

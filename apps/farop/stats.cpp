@@ -115,6 +115,15 @@ void add_timer(Json& timers, const char* name, const StageTimer& timer) {
   if (timer.ran()) timers[name] = to_json(timer.total());
 }
 
+Json findings_json(const std::vector<PluginFinding>& findings) {
+  Json json = Json::array();
+  for (const PluginFinding& finding : findings) {
+    json.push_back({{"verdict", finding.verdict}, {"message", finding.message}});
+    if (finding.polygon) json.back()["polygon"] = *finding.polygon;
+  }
+  return json;
+}
+
 /// A name for the process (`thread` 0) or one of its tracks.
 Json trace_name(int thread, const std::string& name) {
   Json json{{"name", thread == 0 ? "process_name" : "thread_name"}, {"ph", "M"}, {"pid", 1}};
@@ -154,6 +163,7 @@ void write_stats(const Session& session, ExitStatus status) {
                                        {"polygon", to_json(calls->polygon)},
                                        {"end_frame", to_json(calls->end_frame)}};
       json["raster"]["isolation"] = report.raster->walls;
+      json["raster"]["findings"] = findings_json(report.raster->findings);
     }
   }
   Json timers = Json::object();

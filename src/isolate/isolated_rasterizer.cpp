@@ -307,6 +307,7 @@ class IsolatedRasterizer::Judge {
     const int threads = options_.limits.threads;
     start.settings.threads = threads <= 1 ? 1 : static_cast<std::uint32_t>(threads) + 1;
     start.settings.memory_bytes = options_.limits.memory_bytes;
+    start.settings.check = options_.check ? 1 : 0;
     start.settings.cookie = random_cookie();
     start.options = &options_.plugin_options;
     // Nothing of the rasterizer runs before the runner has introduced itself: when it fails so early the
@@ -522,6 +523,21 @@ class IsolatedRasterizer::Judge {
     if (options_.log) {
       const auto level = std::clamp<farop_log_level>(line.reply.status, FAROP_LOG_DEBUG, FAROP_LOG_ERROR);
       options_.log(level, words);
+    }
+  }
+
+  /// Hints, as all that comes from there.
+  void on(const CheckFinding& found) {
+    if (!options_.check) return breach("a finding of a check that nobody asked for");
+    PluginFinding finding;
+    finding.warning = true;
+    finding.of_host = found.of_host != 0;
+    finding.verdict = text(found.verdict);
+    finding.message = text(found.message);
+    if (found.has_polygon != 0) finding.polygon = found.reply.polygon;
+    constexpr std::size_t most = 64;
+    if (findings_.size() < most && said_.insert(finding.verdict + finding.message).second) {
+      add(std::move(finding));
     }
   }
 

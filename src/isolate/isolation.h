@@ -36,6 +36,7 @@ struct IsolationOptions {
   /// No-man's-land behind the vertices of every single polygon, and none of them can be looked at once its
   /// polygon() has returned. Slow: for checks. Otherwise so for every quarter of a megabyte of polygons.
   bool guard_every_polygon = false;
+  bool check = false;      ///< a PluginCheck stands before the rasterizer
   std::uint64_t seed = 1;  ///< of the random bytes around and between the rows
   PluginLog log;           ///< lines that the rasterizer logs, safe to print
   std::string without;     ///< layers not to use, by letter ("BC"): for tests of what the others do alone
@@ -48,6 +49,7 @@ struct PluginFinding {
   std::string verdict;
   bool fatal = false;    ///< the process is gone; the next frame starts a new one
   bool warning = false;  ///< to be shown, but right pictures stay right
+  bool of_host = false;  ///< FAROP's own fault (harness.error)
   std::string message;   ///< one line: "null pointer: it read address 0 in polygon 2 (3 corners, ...)"
   std::string hint;      ///< the remedy, or empty
   std::optional<std::uint32_t> polygon;  ///< number within the frame, from 0

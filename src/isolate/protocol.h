@@ -46,8 +46,10 @@ enum class Mode : std::uint32_t { draw, probe };
 struct Settings {
   std::uint32_t magic = 0;
   Mode mode = Mode::draw;
-  std::uint32_t layers = 0;         ///< those to put up
-  std::uint32_t threads = 1;        ///< that the rasterizer may have, its first one included
+  std::uint32_t layers = 0;   ///< those to put up
+  std::uint32_t threads = 1;  ///< that the rasterizer may have, its first one included
+  std::uint32_t check = 0;    ///< a PluginCheck stands before the rasterizer
+  std::uint32_t reserved = 0;
   std::uint64_t memory_bytes = 0;   ///< private memory of the runner
   std::uint64_t cookie = 0;         ///< in every message of the runner
   std::uint64_t options_bytes = 0;  ///< "key\0value\0" ... behind this record
@@ -88,7 +90,7 @@ struct Request {
 
 constexpr std::uint64_t k_not_counted = ~std::uint64_t{0};
 
-enum class ReplyKind : std::uint32_t { hello = 1, loaded, done, log };
+enum class ReplyKind : std::uint32_t { hello = 1, loaded, done, log, finding };
 
 /// Warnings of Reply::warnings.
 enum ReplyWarning : std::uint32_t {
@@ -140,6 +142,15 @@ struct LogLine {
   Reply reply;
   std::uint32_t length = 0;
   char text[k_max_text] = {};
+};
+
+/// `finding`: of a PluginCheck. Comes before the answer to the call that it belongs to.
+struct CheckFinding {
+  Reply reply;  ///< polygon: within the frame
+  std::uint32_t of_host = 0;
+  std::uint32_t has_polygon = 0;
+  char verdict[32] = {};
+  char message[256] = {};
 };
 
 /// What the runner ends with when its side of the conversation is broken.

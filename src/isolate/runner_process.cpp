@@ -302,6 +302,8 @@ void RunnerProcess::read_control() {
       events_.push_back(as<Loaded>(bytes.data()));
     } else if (known && reply.kind == ReplyKind::log && size == sizeof(LogLine)) {
       events_.push_back(as<LogLine>(bytes.data()));
+    } else if (known && reply.kind == ReplyKind::finding && size == sizeof(CheckFinding)) {
+      events_.push_back(as<CheckFinding>(bytes.data()));
     } else {
       events_.push_back(ProtocolBreach{fmt::format("a message of {} bytes that is none of ours", size)});
       return control_.reset();

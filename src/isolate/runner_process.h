@@ -32,7 +32,8 @@ struct TimedOut {
   bool cpu = false;  ///< else wall clock
   double seconds = 0;
 };
-using RunnerEvent = std::variant<Reply, Hello, Loaded, LogLine, ProtocolBreach, RunnerEnded, TimedOut>;
+using RunnerEvent =
+    std::variant<Reply, Hello, Loaded, LogLine, CheckFinding, ProtocolBreach, RunnerEnded, TimedOut>;
 
 /// First 64 KiB of what a process printed.
 struct Output {

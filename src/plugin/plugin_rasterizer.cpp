@@ -6,6 +6,8 @@
 #include <array>
 #include <cstring>
 #include <new>
+#include <random>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -82,20 +84,38 @@ Framebuffer average_blocks(const farop_frame& frame, int degree, bool y_down) {
 
 PluginRasterizer::PluginRasterizer(const PluginLibrary& library, HostServices& services,
                                    const PluginDrawing& drawing)
-    : library_(library), services_(services), drawing_(drawing), chunk_(library.table->wants) {
+    : library_(library),
+      services_(services),
+      drawing_(drawing),
+      table_(library.table),
+      chunk_(library.table->wants) {
+  if (drawing_.check) {
+    checker_.emplace(*library_.table, [this](const ContractFinding& f) { findings_.push_back(f); });
+    table_ = &checker_->table();
+  }
   create_timer_.trace_to(drawing.trace, "create", TraceTrack::rasterizer);
   begin_timer_.trace_to(drawing.trace, "begin_frame", TraceTrack::rasterizer);
   polygon_timer_.trace_to(drawing.trace, "polygon", TraceTrack::rasterizer);
   end_timer_.trace_to(drawing.trace, "end_frame", TraceTrack::rasterizer);
   if (library_.table->create != nullptr) {
     const TimedSlice slice(create_timer_);
-    check(library_.table->create(services_.host(), &self_), "create");
+    check(create(), "create");
+  } else {
+    create();
   }
   created_ = true;
 }
 
+farop_status PluginRasterizer::create() {
+  if (!checker_) {
+    return table_->create == nullptr ? FAROP_OK : table_->create(services_.host(), &self_);
+  }
+  self_ = checker_->self();
+  return checker_->create(services_.host());
+}
+
 PluginRasterizer::~PluginRasterizer() {
-  if (created_ && library_.table->destroy != nullptr) library_.table->destroy(self_);
+  if (created_ && table_->destroy != nullptr) table_->destroy(self_);
 }
 
 void PluginRasterizer::check(farop_status status, const char* function) const {
@@ -115,20 +135,34 @@ void PluginRasterizer::begin_frame(const ScreenFrame& frame) {
   y_down_ = frame.y_down;
   frame_.row_bytes = 3 * std::int64_t{frame_.width};
   if (draws_here()) {
-    try {
-      pixels_.resize(static_cast<std::size_t>(frame_.row_bytes) * static_cast<std::size_t>(frame_.height));
-    } catch (const std::bad_alloc&) {
-      throw Error(ExitStatus::surroundings,
-                  fmt::format("not enough memory for a frame of {} x {} pixels", frame_.width, frame_.height),
-                  "use a smaller --resolution or fewer --samples");
-    }
-    frame_.pixels = pixels_.data();
+    make_room();
     clear_frame(frame_);
   }
   chunk_.begin_frame(frame.resolution.color);
   services_.forget_words();
   const TimedSlice slice(begin_timer_);
-  check(library_.table->begin_frame(self_, &frame_), "begin_frame");
+  check(table_->begin_frame(self_, &frame_), "begin_frame");
+}
+
+// With a checker: something between the rows, and a row before and behind them.
+void PluginRasterizer::make_room() {
+  if (checker_) frame_.row_bytes = (frame_.row_bytes + 15) / 16 * 16 + 16;
+  const auto row = static_cast<std::size_t>(frame_.row_bytes);
+  const std::size_t apron = checker_ ? row : 0;
+  const std::size_t frame_bytes = row * static_cast<std::size_t>(frame_.height);
+  try {
+    pixels_.resize(apron + frame_bytes + apron);
+  } catch (const std::bad_alloc&) {
+    throw Error(ExitStatus::surroundings,
+                fmt::format("not enough memory for a frame of {} x {} pixels", frame_.width, frame_.height),
+                "use a smaller --resolution or fewer --samples");
+  }
+  frame_.pixels = pixels_.data() + apron;
+  if (!checker_) return;
+  std::minstd_rand random(frame_.number + 1);
+  for (std::uint8_t& byte : pixels_) byte = static_cast<std::uint8_t>(random() >> 8);
+  const std::span<const std::uint8_t> all(pixels_);
+  checker_->watch({all.first(apron), all.last(apron)});
 }
 
 void PluginRasterizer::polygons(const ScreenPolygonBatch& batch) {
@@ -136,7 +170,7 @@ void PluginRasterizer::polygons(const ScreenPolygonBatch& batch) {
   farop_status status = FAROP_OK;
   {
     const TimedSlice slice(polygon_timer_);
-    status = play_chunk(*library_.table, self_, chunk_.view(), &current_);
+    status = play_chunk(*table_, self_, chunk_.view(), &current_);
   }
   check(status, "polygon");
   chunk_.clear();
@@ -144,7 +178,7 @@ void PluginRasterizer::polygons(const ScreenPolygonBatch& batch) {
 
 void PluginRasterizer::end_frame() {
   const TimedSlice slice(end_timer_);
-  check(library_.table->end_frame(self_), "end_frame");
+  check(table_->end_frame(self_), "end_frame");
 }
 
 PluginTimes PluginRasterizer::times() const {

@@ -5,6 +5,7 @@
 #include <farop/rasterizer.h>
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/color.h"
@@ -12,6 +13,7 @@
 #include "core/screen_polygon.h"
 #include "core/statistics.h"
 #include "plugin/host_services.h"
+#include "plugin/plugin_check.h"
 #include "plugin/plugin_library.h"
 #include "plugin/polygon_chunk.h"
 
@@ -40,6 +42,7 @@ struct PluginDrawing {
   int samples = 1;  ///< degree A of super-sampling, done by the host: the rasterizer draws A times as large
   Rgb background;   ///< limited to 0..1
   TraceLog* trace = nullptr;  ///< every call goes there, polygons by the batch; outlives the rasterizer
+  bool check = false;         ///< a PluginCheck stands before the rasterizer
 };
 
 /// Frames one after another, as InternalRasterizer: the frame given to begin_frame is that of the samples.
@@ -64,13 +67,20 @@ class PluginRasterizer : public ScreenPolygonSink {
   /// The finished picture, once per frame.
   Framebuffer take();
   PluginTimes times() const;
+  /// Promises that were broken, where drawing.check is set.
+  const std::vector<ContractFinding>& findings() const { return findings_; }
 
  private:
+  farop_status create();
+  void make_room();
   void check(farop_status status, const char* function) const;
 
   const PluginLibrary& library_;
   HostServices& services_;
   PluginDrawing drawing_;
+  std::optional<PluginCheck> checker_;
+  std::vector<ContractFinding> findings_;
+  const farop_rasterizer* table_;  ///< the library's, or the checker's
   void* self_ = nullptr;
   bool created_ = false;
   farop_frame frame_{};

@@ -252,6 +252,56 @@ TEST_F(Rasterizers, AreTimedCallByCall) {
   }
 }
 
+TEST_F(Rasterizers, ThatKeepTheContractPassItsCheck) {
+  make_scene();
+  for (const std::string name : {"trapezoid", "scanline_fill", "watkins", "solids"}) {
+    run("farop render gears.nff -o plain.ppm -q --resolution 130x90 --rasterizer " + name);
+    for (const std::string how : {"", " --in-process"}) {
+      const Outcome checked =
+          run("farop render gears.nff -o checked.ppm -q --resolution 130x90 --check "
+              "--stats s.json --rasterizer " +
+              name + how + " && cmp plain.ppm checked.ppm");
+      EXPECT_EQ(checked.err, "") << name << how;
+      EXPECT_TRUE(Json::parse(read_file(folder_ / "s.json"))["raster"]["findings"].empty());
+    }
+  }
+}
+
+TEST_F(Rasterizers, ThatBreakTheContractAreToldByItsCheck) {
+  make_scene();
+  const auto broken = [&](const std::string& plugin, const std::string& how, const std::string& note) {
+    const Outcome outcome = run("farop raster gears.scr -o out.ppm --stats s.json --check " + how +
+                                    " --rasterizer " FAROP_HOSTILE "/" + plugin,
+                                1);
+    EXPECT_NE(outcome.err.find(note), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("farop: error: --check found "), std::string::npos) << outcome.err;
+    EXPECT_TRUE(fs::exists(folder_ / "out.ppm")) << "the picture is there all the same";
+    return Json::parse(read_file(folder_ / "s.json"));
+  };
+  broken("oob.write-stride/16-stride-padding.so", "--in-process",
+         "it wrote behind the last pixel of a row: row 0 (oob.write-stride)");
+  broken("oob.write-input/18-modifies-vertices.so", "--in-process",
+         "it changed the polygon that it was given (polygon 2) (oob.write-input)");
+  for (const char* how : {"", "--in-process"}) {
+    const Json stats =
+        broken("pass/58b-flush-to-zero.so", how,
+               "changed the rounding mode or how denormal numbers are treated (polygon 2) (abi.float-state)");
+    EXPECT_EQ(stats["status"], 1);
+    EXPECT_EQ(stats["raster"]["findings"][0]["verdict"], "abi.float-state");
+    EXPECT_EQ(stats["raster"]["findings"][0]["polygon"], 2);
+  }
+  run("farop raster gears.scr -o out.ppm -q --check", 2);
+  run("farop raster gears.scr -o out.ppm -q --check --cmd 'cp {flat} {ppm}'", 2);
+}
+
+TEST_F(Rasterizers, IncludeAReadableReference) {
+  make_scene();
+  run("farop raster gears.scr -o reference.ppm --check --rasterizer scanline");
+  run("farop raster gears.scr -o out.ppm --rasterizer scanline_fill && cmp out.ppm reference.ppm");
+  fs::remove(folder_ / "out.ppm");
+  expect_message("farop raster gears.scr -o out.ppm --rasterizer scanlin", 3, "did you mean 'scanline'?");
+}
+
 TEST_F(Rasterizers, SeeNothingOfABadFlatFile) {
   make_scene();
   run("head -n 100 gears.scr > cut.scr");

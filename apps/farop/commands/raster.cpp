@@ -125,14 +125,14 @@ void run(Session& session, const RasterOptions& options) {
   drawing.keep_depth = !options.depth_file.empty();
   if (!options.background.empty())
     drawing.background = {options.background[0], options.background[1], options.background[2]};
-  check_drawing(chosen, drawing);
+  check_drawing(chosen, options.rasterizer, drawing);
   const bool null = chosen.kind == RasterizerKind::null;
   const std::string output = null ? "" : output_path(options.output, options.input.files, ".ppm");
   if (!null) check_picture_path(output);
   if (drawing.keep_depth) picture_library().check_depth_path(options.depth_file);
 
   const std::unique_ptr<Drawer> drawer = make_drawer(session, chosen, options.rasterizer, drawing);
-  session.report.raster = {drawer->name(), options.mode, 1, {}, {}};
+  session.report.raster = {drawer->name(), options.mode, 1, {}, {}, {}};
   const FlatInput input(session, options, chosen.kind);
   const auto play = [&](ScreenPolygonSink& sink) {
     ScreenTriangles triangles(sink);
@@ -169,6 +169,7 @@ void run(Session& session, const RasterOptions& options) {
                                           : output,
                           *session.report.polygons_loaded, r.x, r.y,
                           session.clocks.drawing.sink.total().elapsed);
+  end_of_check(*session.report.raster, options.rasterizer);
 }
 
 }  // namespace

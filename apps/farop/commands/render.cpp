@@ -74,7 +74,7 @@ void run(Session& session, const RenderOptions& options) {
     throw Error(ExitStatus::usage, "the rasterizer 'null' draws nothing, so there is no picture to write",
                 "leave out -o and --depth, or use --rasterizer internal");
   }
-  check_drawing(chosen, drawing);
+  check_drawing(chosen, options.rasterizer, drawing);
   const std::string output = null ? "" : output_path(options.output, options.input.files, ".ppm");
   if (drawing.keep_depth) {
     picture_library().check_depth_path(output_path(options.drawing.depth_file, options.input.files, ""));
@@ -99,7 +99,7 @@ void run(Session& session, const RenderOptions& options) {
   drawing.additive_transparency = all_sipp(session.scene);
   drawing.shading = session.report.setup->shading;
   const std::unique_ptr<Drawer> drawer = make_drawer(session, chosen, options.rasterizer, drawing);
-  session.report.raster = {drawer->name(), mode, drawing.samples, {}, {}};
+  session.report.raster = {drawer->name(), mode, drawing.samples, {}, {}, {}};
   std::optional<Framebuffer> picture;
   try {
     draw(session, geometry, drawer->sink());
@@ -119,6 +119,7 @@ void run(Session& session, const RenderOptions& options) {
   if (!picture && !null)
     session.console.notice("the rasterizer draws elsewhere: there is no picture to write");
   summarize_drawing(session, picture ? output : "");
+  end_of_check(*session.report.raster, options.rasterizer);
 }
 
 void add_drawing_options(CLI::App& command, DrawingOptions& options) {

@@ -21,6 +21,7 @@ TEST(Lies, EndInWordsAndNothingIsLeftBehind) {
   std::map<std::string, int> ends;
   for (int seed = 0; seed < 200; ++seed) {
     options.plugin_options["seed"] = std::to_string(seed);
+    options.check = seed % 2 == 0;  // findings are welcome, or a breach
     std::string end = "pictures";
     try {
       IsolatedRasterizer rasterizer(plugin_path("filler"), options, {});

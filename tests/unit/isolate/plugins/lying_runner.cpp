@@ -136,6 +136,15 @@ void lie() {
       scribble(line.text, sizeof line.text);
       send_message(k_control_fd, line);
     }
+    if (one_in(25)) {
+      CheckFinding finding;
+      finding.reply = any_reply(ReplyKind::finding, settings.cookie, 0);
+      finding.of_host = static_cast<std::uint32_t>(any());
+      finding.has_polygon = static_cast<std::uint32_t>(any());
+      scribble(finding.verdict, sizeof finding.verdict);
+      scribble(finding.message, sizeof finding.message);
+      send_message(k_control_fd, finding);
+    }
     if (one_in(60)) break;
   }
   if (one_in(2)) std::_Exit(static_cast<int>(g_random() % 256));
