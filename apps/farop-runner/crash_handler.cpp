@@ -23,6 +23,8 @@
 #include <utility>
 #include <vector>
 
+#include "plugin/plugin_library.h"
+
 namespace farop::isolate {
 
 KnownMemories g_known;
@@ -133,6 +135,12 @@ void look_up(std::uintptr_t address, std::uintptr_t stack) {
     g_box->region = Region::stack;
     return;
   }
+  // Its name may be read up to some hundred bytes.
+  const auto text = reinterpret_cast<std::uintptr_t>(plugin_text_in_hand);
+  if (text != 0 && address >= text && address - text < 1024) {
+    g_box->region = Region::text;
+    return;
+  }
   const auto signed_distance = [](std::uintptr_t to, std::uintptr_t from) {
     return static_cast<std::int64_t>(to - from);
   };
@@ -188,6 +196,7 @@ void on_crash(int signal, siginfo_t* info, void* context) {
     if (signal == SIGSYS) box.address = static_cast<std::uint64_t>(info->si_syscall);
     box.program_counter = r.counter, box.stack_pointer = r.stack, box.writing = r.writing;
     box.memory_refused = memory_is_refused() ? 1 : 0;
+    box.other_thread = ::syscall(SYS_gettid) != ::getpid() ? 1 : 0;
     if (signal == SIGSEGV || signal == SIGBUS) look_up(box.address, r.stack);
     // From here on things may go wrong; the essential is written.
     if (g_module_count == 0) ::dl_iterate_phdr(note_module, nullptr);

@@ -61,6 +61,13 @@ void describe_address(PluginFinding& finding, const Circumstances& c, const std:
       finding.hint = "do not unmap or protect memory that is not yours";
       return;
     case Region::old_frame:
+      if (box.other_thread != 0) {
+        finding.verdict = "det.threads";
+        finding.message = fmt::format(
+            "a thread that it had started wrote to a frame whose end_frame() had returned, {}", where);
+        finding.hint = "wait for your threads in end_frame()";
+        return;
+      }
       finding.verdict = "oob.write-after-end";
       finding.message = fmt::format("{} a frame whose end_frame() had returned, {}", did(box), where);
       finding.hint = "take `pixels` from the frame of the last begin_frame()";
@@ -82,6 +89,11 @@ void describe_address(PluginFinding& finding, const Circumstances& c, const std:
       finding.verdict = reads ? "oob.read" : "oob.write-input";
       finding.message = fmt::format("{} vertices of a polygon() that had returned, {}", did(box), where);
       finding.hint = "copy what you keep: a polygon lives until polygon() returns";
+      return;
+    case Region::text:
+      finding.verdict = "abi.name";
+      finding.message = "its name or summary cannot be read: there is no NUL at its end";
+      finding.hint = "name and summary are strings that live until the process ends";
       return;
     case Region::unknown:
       break;
@@ -183,6 +195,19 @@ std::string where_text(const Circumstances& c, std::optional<std::uint32_t>* pol
   return "between two calls";
 }
 
+namespace {
+
+/// The verdict of what ended a library before it was one.
+void belongs_to_loading(PluginFinding& finding, const Circumstances& c) {
+  const bool ended = finding.verdict.starts_with("crash.") || finding.verdict == "limit.time";
+  if (c.box->phase != Phase::load || !ended) return;
+  finding.message += fmt::format(" ({})", finding.verdict);
+  finding.verdict = "abi.load";
+  finding.hint = "code that runs before farop_rasterizer_entry() returns: constructors, that function itself";
+}
+
+}  // namespace
+
 std::optional<PluginFinding> finding_of_end(int wait_status, const Circumstances& c) {
   PluginFinding finding;
   finding.fatal = true;
@@ -214,12 +239,7 @@ std::optional<PluginFinding> finding_of_end(int wait_status, const Circumstances
         fmt::format("it ended the process with exit status {} {}", WEXITSTATUS(wait_status), where);
     finding.hint = "return a negative status instead";
   }
-  if (c.box->phase == Phase::load && finding.verdict.starts_with("crash.")) {
-    finding.message += fmt::format(" ({})", finding.verdict);
-    finding.verdict = "abi.load";
-    finding.hint =
-        "code that runs before farop_rasterizer_entry() returns: constructors, that function itself";
-  }
+  belongs_to_loading(finding, c);
   return finding;
 }
 
@@ -242,6 +262,7 @@ PluginFinding finding_of_time(bool cpu, double seconds, const Circumstances& c) 
                         : fmt::format("stopped after {:g} s in which it hardly computed, {}", seconds, where);
   finding.hint = cpu ? "does a loop end for every polygon? Empty ones, one pixel wide ones?"
                      : "does it wait for something?";
+  belongs_to_loading(finding, c);
   return finding;
 }
 

@@ -86,6 +86,7 @@ PluginFinding load_finding(LoadFailure failure, std::string message, std::string
       finding.verdict = "abi.symbol";
       break;
     case LoadFailure::version:
+    case LoadFailure::refused:  // "this host will not do"
       finding.verdict = "abi.version";
       break;
     case LoadFailure::contract:

@@ -212,7 +212,8 @@ enum class Region : std::uint32_t {
   after_input,   ///< behind the vertices; `offset` from their end
   input,         ///< vertices and what belongs to them
   old_input,     ///< those of a call that has returned
-  stack
+  stack,
+  text  ///< a name or summary of the table that has no end
 };
 
 constexpr std::size_t k_max_trace = 32;
@@ -229,6 +230,7 @@ struct BlackBox {
   Region region = Region::unknown;
   std::int64_t offset = 0;
   std::uint32_t memory_refused = 0;
+  std::uint32_t other_thread = 0;  ///< than the one that calls the rasterizer
   std::uint32_t trace_count = 0;
   char thrown[96] = {};  ///< type of the C++ exception that nobody caught
   char trace[k_max_trace][k_trace_text] = {};

@@ -65,15 +65,25 @@ unsigned float_control() {
 #endif
 }
 
+/// Up to its end, limit + 1 at most.
+std::size_t length_of(const char* text, std::size_t limit) {
+  plugin_text_in_hand = text;
+  std::size_t length = 0;
+  // Byte by byte: strnlen() may look beyond the limit, and be ended for that.
+  while (length <= limit && static_cast<const volatile char*>(text)[length] != '\0') ++length;
+  plugin_text_in_hand = nullptr;
+  return length;
+}
+
 /// Text of a rasterizer, at most `limit` bytes, safe to print; empty when it is NULL.
 std::string text_of(const char* text, std::size_t limit) {
-  return text == nullptr ? std::string() : printable({text, ::strnlen(text, limit + 1)}, limit);
+  return text == nullptr ? std::string() : printable({text, length_of(text, limit)}, limit);
 }
 
 /// Short ids, [a-z0-9_-]+: they are typed on command lines.
 bool is_valid_name(const char* name) {
   if (name == nullptr) return false;
-  const std::size_t length = ::strnlen(name, k_max_name + 1);
+  const std::size_t length = length_of(name, k_max_name);
   if (length == 0 || length > k_max_name) return false;
   for (std::size_t i = 0; i < length; ++i) {
     const char c = name[i];
@@ -95,6 +105,8 @@ struct OpenFile {
 };
 
 }  // namespace
+
+const char* volatile plugin_text_in_hand = nullptr;
 
 std::string status_text(farop_status status) {
   switch (status) {

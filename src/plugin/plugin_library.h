@@ -37,6 +37,10 @@ struct PluginLibrary {
 /// code.
 PluginLibrary open_plugin(const std::string& path, HostServices& services);
 
+/// Text of a rasterizer's table that open_plugin() is reading, or nullptr: whoever looks after a crash learns
+/// that it was text without an end.
+extern const char* volatile plugin_text_in_hand;
+
 /// The checks of open_plugin() on a table that is at hand, for rasterizers that are linked in.
 PluginLibrary check_plugin_table(const farop_rasterizer* table);
 

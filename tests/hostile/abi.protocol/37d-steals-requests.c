@@ -2,6 +2,7 @@
 // Does: reads from every socket it can find, so that the runner misses its requests.
 // Why:  both ends wait for each other then; the judge's clock has to end it.
 // also: pass, limit.time, limit.syscall
+// But:  no request is on its way while end_frame() runs, so there is nothing to steal and nothing happens.
 #include <sys/socket.h>
 
 #include "../hostile.h"

@@ -2,6 +2,7 @@
 // Does: has the kernel drop the pages of the finished frame through its mapping.
 // Why:  madvise is a harmless call that any malloc makes; with this advice it empties shared memory.
 // also: frame.blank, cov.missing, oob.write-before, oob.write-after, limit.syscall, pass
+// But:  whole pages go, those beside the pixels too, and these are looked at first.
 #include "../hostile.h"
 
 static farop_status end(void) {

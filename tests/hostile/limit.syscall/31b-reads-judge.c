@@ -2,6 +2,7 @@
 // Does: opens the judge's program, command line, memory map and descriptors and says so.
 // Why:  the judge knows the expected pictures and where the results go.
 // also: pass
+// But:  opening to read is refused without a word, as libraries do it in passing; so a right picture passes.
 #include "../hostile.h"
 
 static farop_status deed(const farop_polygon* polygon) {

@@ -2,6 +2,7 @@
 // Does: lists the folders around it, where other submissions and the expected pictures may lie.
 // Why:  names alone tell who else submitted.
 // also: pass
+// But:  opening to read is refused without a word, as libraries do it in passing; so a right picture passes.
 #include <dirent.h>
 
 #include "../hostile.h"

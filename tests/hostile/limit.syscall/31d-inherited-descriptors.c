@@ -2,6 +2,7 @@
 // Does: looks through every descriptor it inherited for a file that has a name.
 // Why:  a descriptor that was not closed needs no open().
 // also: pass
+// But:  opening to read is refused without a word, as libraries do it in passing; so a right picture passes.
 #include "../hostile.h"
 
 static farop_status deed(const farop_polygon* polygon) {

@@ -120,8 +120,8 @@ TEST(Findings, LoadingIsPartOfIt) {
   EXPECT_EQ(verdict(plugin_path("sinner"), ""), "pass");
   EXPECT_EQ(verdict(plugin_path("sinner"), "segv"), "abi.load");
   EXPECT_EQ(verdict(plugin_path("sinner"), "exit"), "abi.load");
-  EXPECT_EQ(verdict(plugin_path("sinner"), "loop"), "limit.time");
-  EXPECT_EQ(verdict(plugin_path("sinner"), "null"), "abi.load");
+  EXPECT_EQ(verdict(plugin_path("sinner"), "loop"), "abi.load");
+  EXPECT_EQ(verdict(plugin_path("sinner"), "null"), "abi.version");
   EXPECT_EQ(verdict("/nowhere/at-all.so", ""), "abi.load");
   EXPECT_EQ(verdict("/dev/zero", ""), "abi.load");
   EXPECT_EQ(verdict(FAROP_TEST_PLUGINS, ""), "abi.load");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Does: loads the shipped rasterizer in its entry and hands out that one's table.
 // Why:  somebody else's work; it is not there to be found.
-// also: abi.version, limit.syscall
+// also: abi.load, limit.syscall
 #include <dlfcn.h>
 
 #include "../hostile.h"

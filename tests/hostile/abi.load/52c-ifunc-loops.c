@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Does: has an indirect function whose resolver loops.
 // Why:  resolvers run while the library is being relocated, before any constructor.
-// also: abi.load
+// also: limit.time
 #include "../hostile.h"
 
 typedef int chosen(void);
