@@ -20,8 +20,6 @@
 #include "export/ppm_reader.h"
 #include "plugin/plugin_rasterizer.h"
 
-extern char** environ;
-
 namespace farop::app {
 namespace {
 

@@ -41,8 +41,9 @@ using namespace isolate;
 
 namespace {
 
-/// Polygons go over as soon as there is this much of them.
-constexpr std::size_t k_batch_bytes = std::size_t{256} << 10;
+/// Polygons go over as soon as there is this much of them: little at first, so that the runner has something
+/// to do, then more and more, as every chunk costs some system calls.
+constexpr std::size_t k_first_batch_bytes = std::size_t{16} << 10, k_batch_bytes = std::size_t{256} << 10;
 constexpr std::uint64_t k_page = 4096;
 constexpr std::ptrdiff_t k_max_own_memories = 2;
 constexpr std::int64_t k_least_leak = 128 << 10;                ///< bytes per frame that are worth a word
@@ -221,6 +222,7 @@ class IsolatedRasterizer::Judge {
     request.row_bytes = frame_.row_bytes;
     std::memcpy(request.background, frame_.background, sizeof request.background);
     chunk_->begin_frame(frame.resolution.color);
+    batch_bytes_ = k_first_batch_bytes;
     process_->start_clocks(options_.limits);
     ask(request, memory);
   }
@@ -229,7 +231,9 @@ class IsolatedRasterizer::Judge {
     need_frame();
     if (options_.guard_every_polygon) return polygons_one_by_one(batch);
     chunk_->append(batch);
-    if (chunk_->packed_bytes() >= k_batch_bytes) flush();
+    if (chunk_->packed_bytes() < batch_bytes_) return;
+    flush();
+    batch_bytes_ = std::min(2 * batch_bytes_, k_batch_bytes);
   }
 
   void end_frame() {
@@ -772,6 +776,7 @@ class IsolatedRasterizer::Judge {
   std::optional<ControlGroup> group_;
 
   std::optional<PolygonChunk> chunk_;
+  std::size_t batch_bytes_ = k_first_batch_bytes;
   std::deque<Outstanding> outstanding_;
   std::array<bool, k_ring_slots> slot_busy_{};
   std::uint32_t next_slot_ = 0;

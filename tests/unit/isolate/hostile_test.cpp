@@ -215,7 +215,7 @@ IsolationOptions options_for(const Row& row) {
   options.limits.wall_seconds = 30;
   const bool sleeps = row.expected == "limit.time" || row.name.find("sleep") != std::string::npos;
   if (sleeps || row.name.find("loop") != std::string::npos)
-    options.limits.cpu_seconds = 0.5, options.limits.wall_seconds = 1.5;
+    options.limits.cpu_seconds = 0.25, options.limits.wall_seconds = 0.75;
   if (row.number() == 60 || row.number() == 29) options.limits.threads = 8;
   if (row.number() == 24 || row.number() == 49 || row.number() == 57) options.limits.threads = 8;
   return options;
