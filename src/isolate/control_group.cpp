@@ -114,7 +114,7 @@ ControlGroup::ControlGroup(const Limits& limits, const std::string& root) {
   std::vector<std::string> parents = {*own};
   if (!own->empty()) parents.push_back(own->substr(0, own->rfind('/')));
   for (const std::string& parent : parents) {
-    const std::string folder = root + mount->place + parent;
+    const std::string folder = fmt::format("{}{}{}", root, mount->place, parent);
     const std::string controllers = line_of(folder + "/cgroup.subtree_control");
     if (!has_word(controllers, "memory") || !has_word(controllers, "pids")) {
       why_ = fmt::format("{} does not share out memory and pids", mount->place + parent);
