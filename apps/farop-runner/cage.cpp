@@ -38,6 +38,8 @@
 namespace farop::isolate {
 namespace {
 
+constexpr std::uint64_t k_any_page = std::uint64_t{64} << 10;  ///< a multiple of the page of any machine
+
 std::uint64_t to_nanoseconds(double seconds) {
   return static_cast<std::uint64_t>(std::max(seconds, 0.0) * 1e9);
 }
@@ -490,12 +492,17 @@ class Cage {
     const bool own = request.slot == k_no_slot;
     if (!own && request.slot >= k_ring_slots) std::_Exit(k_exit_control);
     KnownMemory& known = g_known.chunks[own ? k_ring_slots : request.slot];
-    const std::uint64_t room = own ? request.map_bytes : k_slot_bytes;
+    if (!own && request.offset > k_slot_bytes) std::_Exit(k_exit_control);
+    // What lies before the chunk in its slot stays out of reach.
+    const std::uint64_t unused = request.offset / k_any_page * k_any_page;
+    const auto protect_slot = [&known, unused](int access) {
+      ::mprotect(pointer(known.first + k_guard_bytes + unused), k_slot_bytes - unused, access);
+    };
     if (own) {
-      known = reserve(room);
-      if (!memory || !map(known, room, PROT_READ, *memory, 0)) std::_Exit(k_exit_memory);
+      known = reserve(request.map_bytes);
+      if (!memory || !map(known, request.map_bytes, PROT_READ, *memory, 0)) std::_Exit(k_exit_memory);
     } else {
-      ::mprotect(pointer(known.first + k_guard_bytes), room, PROT_READ);
+      protect_slot(PROT_READ);
     }
     known.begin = known.first + k_guard_bytes + request.offset;
     known.bytes = request.bytes;
@@ -510,7 +517,7 @@ class Cage {
           if (own) {
             release(known);
           } else {
-            ::mprotect(pointer(known.first + k_guard_bytes), room, PROT_NONE);
+            protect_slot(PROT_NONE);
           }
         });
   }

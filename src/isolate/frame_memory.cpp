@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstring>
 #include <new>
+#include <utility>
 
 #include "core/error.h"
 #include "isolate/protocol.h"
@@ -91,9 +92,23 @@ void FrameMemory::make(std::uint64_t at, std::span<std::byte> bytes) const {
   }
 }
 
+FrameMemory::Shape FrameMemory::shape_of(const farop_frame& frame) {
+  return {frame.width, frame.height, {frame.background[0], frame.background[1], frame.background[2]}};
+}
+
+void FrameMemory::prepare_ahead(const farop_frame& frame) {
+  if (!memory_ || sent_.empty() || shape_of(frame) != shape_) return;
+  memory_.write(0, sent_);
+  is_ahead_ = true;
+}
+
 bool FrameMemory::prepare(farop_frame& frame) {
-  const Shape shape{
-      frame.width, frame.height, {frame.background[0], frame.background[1], frame.background[2]}};
+  const Shape shape = shape_of(frame);
+  if (std::exchange(is_ahead_, false) && shape == shape_) {
+    frame.row_bytes = row_bytes_;
+    frame.pixels = nullptr;
+    return false;
+  }
   row_bytes_ = (3 * std::int64_t{frame.width} + 15) / 16 * 16 + 16;
   bytes_ = static_cast<std::uint64_t>(row_bytes_ * (frame.height - 1) + 3 * std::int64_t{frame.width});
   const std::uint64_t all = whole_pages(bytes_ + k_apron_bytes);

@@ -30,6 +30,11 @@ class FrameMemory {
   /// Makes room for `frame` (row_bytes is set here) and fills it: background, and random bytes elsewhere.
   /// True: the memory is new.
   bool prepare(farop_frame& frame);
+  /// For a runner that has not had this memory: what an earlier one may have left in it does not count.
+  void forget_preparation() { is_ahead_ = false; }
+  /// Fills it for a frame that will probably be like `frame`, in a moment when there is nothing else to do.
+  /// Nothing happens where that would take new memory.
+  void prepare_ahead(const farop_frame& frame);
   const SharedMemory& memory() const { return memory_; }
   std::uint64_t offset() const { return offset_; }  ///< of the first pixel
   std::uint64_t bytes() const { return bytes_; }    ///< from the first pixel to the end of the last
@@ -44,6 +49,7 @@ class FrameMemory {
     std::array<std::uint8_t, 3> background{};
     friend bool operator==(const Shape&, const Shape&) = default;
   };
+  static Shape shape_of(const farop_frame& frame);
   /// What the rasterizer is given, from byte `at` of the memory on.
   void make(std::uint64_t at, std::span<std::byte> bytes) const;
 
@@ -53,6 +59,7 @@ class FrameMemory {
   std::uint64_t offset_ = 0, bytes_ = 0;
   std::int64_t row_bytes_ = 0;
   Shape shape_;                  ///< of the frame
+  bool is_ahead_ = false;        ///< filled already
   std::vector<std::byte> sent_;  ///< made once for frames alike; empty for large ones
   std::vector<std::byte> got_;
 };
