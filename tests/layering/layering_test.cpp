@@ -31,6 +31,7 @@ const std::map<std::string, Rooms> k_may_include = {
     {"plugin", {"core", "shading"}},
     {"isolate", {"core", "shading", "plugin"}},
     {"export", {"core", "shading", "scene"}},
+    {"conformance", {"core"}},
 };
 
 /// Third-party headers by their first folder -> the only places that may include them.
