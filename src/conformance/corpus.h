@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The cases that a rasterizer is tested with: generated, the same on every machine.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "conformance/drawing.h"
+
+namespace farop::conformance {
+
+enum class Level { quick, normal, thorough };
+
+/// How the drawings of a case are judged.
+enum class CaseKind : std::uint8_t {
+  coverage,  ///< polygons in colours of their own, apart from each other: which samples does each draw
+  picture,   ///< every drawing on its own: owner, depth order, colour
+  tiling,    ///< one drawing whose polygons share edges: each sample once, whatever the order
+  probe,     ///< depth of the first drawing's polygons measured at every sample
+  ties,      ///< equal depths: first or last wins, the same everywhere
+  relation,  ///< the second drawing, moved by `shift`, must equal the first within `window`
+  state,     ///< drawn one after another in one life; equal drawings give equal pictures
+  repeat,    ///< drawn in several processes and memories: bit-equal
+  survive    ///< outside the contract: must not crash or write outside
+};
+
+struct Case {
+  std::string family, name;  ///< "cov", "tri4"
+  std::uint64_t index = 0, seed = 1;
+  std::string purpose;  ///< one sentence
+  CaseKind kind = CaseKind::picture;
+  bool tile = false;  ///< small enough for a tile of a sheet: corners 0..3
+  bool expect_nothing_ambiguous = true;
+  bool free_interpolation = false;  ///< n-gons with values on no plane: scan-line or any triangulation
+  std::vector<Drawing> drawings;
+  Window window;  ///< of a relation
+  int shift_x = 0, shift_y = 0;
+
+  std::string id() const;
+  std::string group() const { return family + "/" + name; }
+};
+
+struct CorpusOptions {
+  Level level = Level::normal;
+  std::uint64_t seed = 1;
+  bool beyond_contract = false;
+};
+
+/// Everything, in the order in which it is run: smoke, cov, tile, depth, colour, meta, abi, det (and x where
+/// asked for).
+std::vector<Case> make_corpus(const CorpusOptions& options);
+
+/// Families in order, with a word about each.
+struct FamilyFacts {
+  std::string_view name, purpose;
+};
+const std::vector<FamilyFacts>& corpus_families();
+
+/// FNV-1a over ids and all numbers of all drawings.
+std::uint64_t corpus_hash(const std::vector<Case>& corpus);
+
+/// Colour by which polygon `number` is told from all others (16384 of them) and from both backgrounds.
+Color identification_color(std::size_t number);
+/// What frames are filled with before drawing, where that can be chosen; black in flat files.
+constexpr Color k_background = {16, 16, 48};
+
+}  // namespace farop::conformance
