@@ -132,7 +132,7 @@ void add_visible(CorpusBuilder& b) {
                            sloped(polygon_of({{60, 4}, {50, 60}, {4, 40}}), -4, -2, 412)}));
   put_orders(
       b, "cross", "Three planes that pass through each other.",
-      scene(k_f64, {sloped(rectangle(8, 8, 56, 56), 6, 0, 20), sloped(rectangle(4, 20, 60, 44), -6, 0, 407),
+      scene(k_f64, {sloped(rectangle(8, 8, 56, 56), 6, 0, 20), sloped(rectangle(4, 20, 60, 44), -6, 0, 410),
                     flat(rectangle(12, 12, 52, 40), 209)}));
 
   put_orders(

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The whole run: corpus in, findings out.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "conformance/corpus.h"
+#include "conformance/judge.h"
+#include "conformance/result.h"
+#include "conformance/subject.h"
+#include "core/progress.h"
+
+namespace farop::conformance {
+
+struct CheckOptions {
+  /// Fill rule that passes: a name of rule_name(); other consistent or named rules stay errors.
+  std::string accepted_rule = "lb";
+  Precision_ask precision = Precision_ask::normal;
+  int workers = 1;     ///< lives at a time
+  bool shrink = true;  ///< look for the smallest example of each finding
+  bool repeat = true;  ///< family det
+  ProgressFunction progress;
+  /// Asked now and then: true ends the run early; what was found so far is kept.
+  std::function<bool()> interrupted;
+};
+
+/// Runs the cases in the order of their families. Fills findings, families, cases, rule_fingerprint and
+/// summary; plugin and run facts are the caller's. Throws farop::Error for what the machine cannot do.
+CheckResult run_check(const std::vector<Case>& corpus, const SubjectMaker& maker,
+                      const CheckOptions& options);
+
+}  // namespace farop::conformance
