@@ -3,6 +3,7 @@
 
 #include <farop/rasterizer.h>
 #include <fcntl.h>
+#include <malloc.h>
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
@@ -144,6 +145,7 @@ class Cage {
 
   [[noreturn]] void run() {
     put_up_walls();
+    if (settings_.fresh_memory != 0) ::mallopt(M_PERTURB, static_cast<int>(settings_.fresh_memory & 0xFFu));
     if (settings_.mode == Mode::probe) probe();
     for (;;) {
       Request request;

@@ -65,6 +65,7 @@ CommandLine::CommandLine()
   add_render(*this);
   add_export(*this);
   add_raster(*this);
+  add_check(*this);
   add_convert(*this);
   add_spd(*this);
   add_info(*this);

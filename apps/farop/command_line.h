@@ -58,6 +58,7 @@ void add_spd(CommandLine& line);
 void add_info(CommandLine& line);
 void add_compare(CommandLine& line);
 void add_plugins(CommandLine& line);
+void add_check(CommandLine& line);
 void add_doctor(CommandLine& line);
 void add_table(CommandLine& line);
 void add_new(CommandLine& line);

@@ -40,7 +40,7 @@ class SubjectMaker {
  public:
   virtual ~SubjectMaker() = default;
   /// `memory`: 0 as it comes; others fill fresh memory with that byte, where that can be done.
-  virtual std::unique_ptr<Subject> make(std::uint8_t memory) = 0;
+  virtual std::unique_ptr<Subject> make(std::uint8_t memory) const = 0;
   /// The drawing in the form that the rasterizer gets: as triangles where it wants those.
   virtual Drawing as_given(const Drawing& drawing) const { return drawing; }
   virtual Color background() const { return k_black; }

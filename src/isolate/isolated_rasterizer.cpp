@@ -316,6 +316,7 @@ class IsolatedRasterizer::Judge {
     start.settings.memory_bytes = options_.limits.memory_bytes;
     start.settings.check = options_.check ? 1 : 0;
     start.settings.cookie = random_cookie();
+    start.settings.fresh_memory = options_.fresh_memory;
     start.options = &options_.plugin_options;
     // Nothing of the rasterizer runs before the runner has introduced itself: when it fails so early the
     // machine was short of something, and may not be the next time.

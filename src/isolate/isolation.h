@@ -37,6 +37,9 @@ struct IsolationOptions {
   /// polygon() has returned. Slow: for checks. Otherwise so for every quarter of a megabyte of polygons.
   bool guard_every_polygon = false;
   bool check = false;      ///< a PluginCheck stands before the rasterizer
+  /// Byte (or its complement) that memory fresh from malloc is filled with; 0: as it comes. Shows who reads
+  /// what he never wrote.
+  std::uint8_t fresh_memory = 0;
   std::uint64_t seed = 1;  ///< of the random bytes around and between the rows
   PluginLog log;           ///< lines that the rasterizer logs, safe to print
   std::string without;     ///< layers not to use, by letter ("BC"): for tests of what the others do alone

@@ -52,6 +52,7 @@ struct Settings {
   std::uint32_t reserved = 0;
   std::uint64_t memory_bytes = 0;   ///< private memory of the runner
   std::uint64_t cookie = 0;         ///< in every message of the runner
+  std::uint64_t fresh_memory = 0;   ///< byte that malloc fills memory with; 0: as it comes
   std::uint64_t options_bytes = 0;  ///< "key\0value\0" ... behind this record
 };
 constexpr std::uint32_t k_settings_magic = 0x464A5231;

@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "check_subjects.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "command_rasterizer.h"
+#include "conformance/corpus.h"
+#include "geometry/screen_triangles.h"
+#include "isolate/isolated_rasterizer.h"
+#include "plugin/plugin_rasterizer.h"
+#include "raster/internal_rasterizer.h"
+
+namespace farop::app {
+namespace {
+
+using namespace conformance;
+
+Rgb background_rgb(const Color& c) {
+  return {c[0] / 255.0, c[1] / 255.0, c[2] / 255.0};
+}
+
+void play(const Drawing& drawing, ScreenPolygonSink& sink) {
+  sink.begin_frame(to_frame(drawing));
+  if (!drawing.polygons.empty()) sink.polygons(to_batch(drawing));
+  sink.end_frame();
+}
+
+/// Collects what a drawing looks like in triangles.
+class TriangleRecorder : public ScreenPolygonSink {
+ public:
+  Drawing drawing;
+  void begin_frame(const ScreenFrame& frame) override { drawing.frame = frame.resolution; }
+  void polygons(const ScreenPolygonBatch& batch) override {
+    for (const ScreenPolygonRecord& record : batch.polygons) {
+      const auto corners = batch.corners(record);
+      drawing.polygons.emplace_back(corners.begin(), corners.end());
+    }
+  }
+  void end_frame() override {}
+};
+
+Drawing as_triangles(const Drawing& drawing) {
+  TriangleRecorder recorder;
+  ScreenTriangles triangles(recorder);
+  play(drawing, triangles);
+  return recorder.drawing;
+}
+
+SubjectFailure failure_of(const PluginFinding& f) {
+  return {f.verdict, f.message, f.hint, f.polygon, f.trace, f.warning};
+}
+
+// ---- a library in a process of its own --------------------------------------------------------------------
+
+class IsolatedSubject : public Subject {
+ public:
+  IsolatedSubject(LoadableRasterizer what, IsolationOptions options, const Color& background)
+      : what_(std::move(what)), options_(std::move(options)), background_(background) {}
+
+  Delivered draw(const Drawing& drawing) override {
+    Delivered d;
+    try {
+      if (!rasterizer_) {
+        seen_ = 0;
+        rasterizer_ = std::make_unique<IsolatedRasterizer>(what_.library, options_,
+                                                           PluginDrawing{1, background_rgb(background_)});
+      }
+      if (!rasterizer_->draws_here()) {
+        d.failure = SubjectFailure{
+            "unsupported", "it draws elsewhere: there is no picture to judge", "", {}, {}, true};
+        return d;
+      }
+      play(drawing, *rasterizer_);
+      d.picture = rasterizer_->take();
+    } catch (const PluginFailure& failure) {
+      d.failure = failure_of(failure.finding());
+    }
+    if (rasterizer_) {
+      const auto& findings = rasterizer_->findings();
+      for (; seen_ < findings.size(); ++seen_) d.remarks.push_back(failure_of(findings[seen_]));
+    }
+    return d;
+  }
+
+ private:
+  LoadableRasterizer what_;
+  IsolationOptions options_;
+  Color background_;
+  std::unique_ptr<IsolatedRasterizer> rasterizer_;
+  std::size_t seen_ = 0;
+};
+
+class LibraryMaker : public SubjectMaker {
+ public:
+  LibraryMaker(LoadableRasterizer what, IsolationOptions options, bool triangles)
+      : what_(std::move(what)), options_(std::move(options)), triangles_(triangles) {}
+  std::unique_ptr<Subject> make(std::uint8_t memory) const override {
+    IsolationOptions options = options_;
+    options.fresh_memory = memory;
+    return std::make_unique<IsolatedSubject>(what_, options, background());
+  }
+  Drawing as_given(const Drawing& drawing) const override {
+    return triangles_ ? as_triangles(drawing) : drawing;
+  }
+  Color background() const override { return k_background; }
+  bool eight_bit_colors() const override { return true; }
+
+ private:
+  LoadableRasterizer what_;
+  IsolationOptions options_;
+  bool triangles_;
+};
+
+// ---- a library in this process ----------------------------------------------------------------------------
+
+class InProcessSubject : public Subject {
+ public:
+  InProcessSubject(const PluginLibrary& library, HostServices& services, const Color& background)
+      : rasterizer_(library, services, PluginDrawing{1, background_rgb(background)}) {}
+  Delivered draw(const Drawing& drawing) override {
+    Delivered d;
+    try {
+      play(drawing, rasterizer_);
+      d.picture = rasterizer_.take();
+    } catch (const Error& error) {
+      if (error.status() != ExitStatus::plugin) throw;
+      d.failure = SubjectFailure{"abi.status", error.what(), error.hint(), {}, {}, false};
+    }
+    return d;
+  }
+
+ private:
+  PluginRasterizer rasterizer_;
+};
+
+class InProcessMaker : public SubjectMaker {
+ public:
+  explicit InProcessMaker(const LoadableRasterizer& what)
+      : services_(HostServices::for_the_life_of_the_process(what.options, {})),
+        library_(open_plugin(what.library, services_)) {
+    if (library_.failure != LoadFailure::none)
+      throw Error(ExitStatus::plugin, library_.message, library_.hint);
+  }
+  std::unique_ptr<Subject> make(std::uint8_t) const override {
+    return std::make_unique<InProcessSubject>(library_, services_, background());
+  }
+  Drawing as_given(const Drawing& drawing) const override {
+    return polygon_wants(*library_.table).triangles ? as_triangles(drawing) : drawing;
+  }
+  Color background() const override { return k_background; }
+  bool parallel() const override { return false; }
+  bool eight_bit_colors() const override { return true; }
+
+ private:
+  HostServices& services_;
+  PluginLibrary library_;
+};
+
+// ---- the internal rasterizer, and programs ----------------------------------------------------------------
+
+class InternalSubject : public Subject {
+ public:
+  explicit InternalSubject(const Color& background) : rasterizer_(options(background)) {}
+  Delivered draw(const Drawing& drawing) override {
+    play(drawing, rasterizer_);
+    return {rasterizer_.take(), {}, {}};
+  }
+
+ private:
+  static InternalRasterizerOptions options(const Color& background) {
+    InternalRasterizerOptions o;
+    o.mode = DrawMode::gouraud;
+    o.samples = 1;
+    o.background = background_rgb(background);
+    return o;
+  }
+  InternalRasterizer rasterizer_;
+};
+
+class InternalMaker : public SubjectMaker {
+ public:
+  std::unique_ptr<Subject> make(std::uint8_t) const override {
+    return std::make_unique<InternalSubject>(background());
+  }
+  Color background() const override { return k_background; }
+};
+
+class CommandSubject : public Subject {
+ public:
+  explicit CommandSubject(const std::string& command) : rasterizer_(command, 1) {}
+  Delivered draw(const Drawing& drawing) override {
+    Delivered d;
+    try {
+      play(drawing, rasterizer_);
+      d.picture = rasterizer_.take();
+    } catch (const Error& error) {
+      if (error.status() != ExitStatus::plugin) throw;
+      d.failure = SubjectFailure{"crash.exit", error.what(), error.hint(), {}, {}, false};
+    }
+    return d;
+  }
+
+ private:
+  CommandRasterizer rasterizer_;
+};
+
+class CommandMaker : public SubjectMaker {
+ public:
+  explicit CommandMaker(std::string command) : command_(std::move(command)) {}
+  std::unique_ptr<Subject> make(std::uint8_t) const override {
+    return std::make_unique<CommandSubject>(command_);
+  }
+
+ private:
+  std::string command_;
+};
+
+}  // namespace
+
+std::unique_ptr<SubjectMaker> make_subjects(Session& session, const ChosenRasterizer& chosen,
+                                            const RasterizerOptions& how, std::uint64_t seed) {
+  switch (chosen.kind) {
+    case RasterizerKind::internal:
+      return std::make_unique<InternalMaker>();
+    case RasterizerKind::command:
+      return std::make_unique<CommandMaker>(chosen.command);
+    case RasterizerKind::null:
+      throw Error(ExitStatus::usage, "null draws nothing: there is nothing to check");
+    case RasterizerKind::library:
+      break;
+  }
+  const LoadableRasterizer what = loadable(chosen.file, plugin_options(how));
+  if (how.in_process) return std::make_unique<InProcessMaker>(what);
+  IsolationOptions options = isolation_options(
+      how, [&session](farop_log_level, const std::string& line) { session.console.log("{}", line); });
+  options.plugin_options = what.options;
+  options.seed = seed;
+  bool triangles = false;
+  try {
+    triangles =
+        (IsolatedRasterizer(what.library, options, {}).description().wants & FAROP_WANT_TRIANGLES) != 0;
+  } catch (const PluginFailure&) {  // the first drawing will say so
+  }
+  return std::make_unique<LibraryMaker>(what, std::move(options), triangles);
+}
+
+PluginFacts describe_subject(const ChosenRasterizer& chosen, const RasterizerOptions& how,
+                             std::vector<std::string>& walls) {
+  PluginFacts facts;
+  switch (chosen.kind) {
+    case RasterizerKind::internal:
+      facts.kind = facts.argument = facts.name = "internal";
+      return facts;
+    case RasterizerKind::null:
+      facts.kind = "null";
+      return facts;
+    case RasterizerKind::command:
+      facts.kind = "command", facts.argument = facts.name = printable(chosen.command, 4096);
+      return facts;
+    case RasterizerKind::library:
+      break;
+  }
+  facts.kind = chosen.file.ends_with(".py") ? "python" : "library";
+  facts.argument = facts.name = printable(chosen.file, 4096);
+  if (how.in_process) return facts;
+  const LoadableRasterizer what = loadable(chosen.file, plugin_options(how));
+  IsolationOptions options = isolation_options(how, {});
+  options.plugin_options = what.options;
+  try {
+    const IsolatedRasterizer rasterizer(what.library, options, {});
+    const PluginDescription& d = rasterizer.description();
+    facts.name = d.name, facts.summary = d.summary;
+    facts.abi = fmt::format("{}.{}", d.abi_version >> 16, d.abi_version & 0xFFFFu);
+    if ((d.wants & FAROP_WANT_TRIANGLES) != 0) facts.wants.emplace_back("triangles");
+    for (const IsolationLayer& layer : rasterizer.report().layers) {
+      if (layer.holds) walls.push_back(layer.id);
+    }
+  } catch (const PluginFailure&) {  // a finding of the run
+  }
+  return facts;
+}
+
+}  // namespace farop::app

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Rasterizers of every kind in the form that the checker draws with.
+#pragma once
+
+#include <memory>
+
+#include "conformance/subject.h"
+#include "rasterizer_options.h"
+#include "session.h"
+
+namespace farop::app {
+
+/// What is to be checked. The session must outlive it. Throws Error(plugin) for a file that cannot be loaded
+/// here at all; a library that fails in its own process is the checker's finding.
+std::unique_ptr<conformance::SubjectMaker> make_subjects(Session& session, const ChosenRasterizer& chosen,
+                                                         const RasterizerOptions& how, std::uint64_t seed);
+
+/// What the rasterizer says of itself, as far as it can be asked.
+conformance::PluginFacts describe_subject(const ChosenRasterizer& chosen, const RasterizerOptions& how,
+                                          std::vector<std::string>& walls);
+
+}  // namespace farop::app
