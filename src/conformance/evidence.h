@@ -28,6 +28,9 @@ struct CoverageCause {
   ConsistentRule rule = ConsistentRule::lb;
 };
 
+/// Samples that differ from what the required rule covers.
+std::uint64_t wrong_samples(const Evidence& evidence);
+
 /// Fills `wrong` everywhere. An empty verdict: nothing is wrong.
 CoverageCause name_coverage(std::vector<Evidence>& evidence);
 

@@ -88,6 +88,19 @@ std::vector<std::uint32_t> Expectation::admissible(int x, int y) const {
   return left;
 }
 
+void Expectation::add_boundary_of(FillRule rule) {
+  for (const ExactPolygon& polygon : polygons_) {
+    const Window w = bounds(polygon.corners, drawing_->frame, 1);
+    const Bitmap theirs = rule_coverage(polygon.corners, rule, w);
+    for (int y = w.y0; y < w.y1; ++y) {
+      for (int x = w.x0; x < w.x1; ++x) {
+        const bool ours = (polygon.masks.get(x, y) & rule_bit(ConsistentRule::lb)) != 0;
+        if (ours != (theirs.get(x, y) != 0)) boundary_.set(x, y, 1);
+      }
+    }
+  }
+}
+
 int Expectation::nearest(int x, int y) const {
   int best = -1;
   Rational depth;

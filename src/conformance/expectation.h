@@ -11,6 +11,7 @@
 #include "conformance/attribute.h"
 #include "conformance/coverage.h"
 #include "conformance/drawing.h"
+#include "conformance/fill_rules.h"
 
 namespace farop::conformance {
 
@@ -44,6 +45,8 @@ class Expectation {
   bool on_boundary(int x, int y) const { return boundary_.get(x, y) != 0; }
   /// Polygon that is exactly nearest (of equals the first drawn), -1 for none.
   int nearest(int x, int y) const;
+  /// Counts samples as boundary, too, where `rule` covers other samples of some polygon than lb does.
+  void add_boundary_of(FillRule rule);
 
  private:
   bool is_forced(std::uint32_t front, std::uint32_t back, int x, int y) const;

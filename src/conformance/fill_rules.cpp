@@ -318,6 +318,8 @@ Bitmap slip_coverage(std::span<const ScreenVertex> polygon, Slip slip, bool open
       while (count < polygon.size() &&
              (polygon[count].x != polygon[count - 1].x || polygon[count].y != polygon[count - 1].y))
         ++count;
+      // Some stop before the corner that is repeated, some behind it.
+      if (open_end && count < polygon.size()) --count;
       return from_mask(polygon.first(count), window, rule_bit(ConsistentRule::lb));
     }
     case Slip::thin_dropped: {

@@ -44,9 +44,45 @@ bool nearly_all(std::uint64_t part, std::uint64_t all) {
 
 }  // namespace
 
+namespace {
+
+/// Who shows in a row when a span is coloured as a whole as soon as one of its pixels is visible, while
+/// depths are kept correctly.
+std::vector<int> row_by_spans(const Expectation& expected, int y) {
+  const int width = expected.drawing().frame.x;
+  std::vector<int> owner(static_cast<std::size_t>(width), -1);
+  std::vector<double> depth(static_cast<std::size_t>(width), std::numeric_limits<double>::infinity());
+  const auto covers = [&](std::uint32_t k, int x) {
+    const auto all = expected.covering(x, y);
+    return std::ranges::find(all, k) != all.end();
+  };
+  for (std::uint32_t k = 0; k < expected.polygons().size(); ++k) {
+    const Window& w = expected.polygons()[k].masks.window;
+    if (y < w.y0 || y >= w.y1) continue;
+    for (int x = w.x0; x < w.x1;) {
+      if (!covers(k, x)) {
+        ++x;
+        continue;
+      }
+      const int first = x;
+      bool visible = false;
+      for (; x < w.x1 && covers(k, x); ++x) {
+        const double z = depth_at(expected.polygons()[k], x, y);
+        double& stored = depth[static_cast<std::size_t>(x)];
+        if (z < stored) stored = z, visible = true;
+      }
+      if (visible) std::fill(owner.begin() + first, owner.begin() + x, static_cast<int>(k));
+    }
+  }
+  return owner;
+}
+
+}  // namespace
+
 void DepthStatistics::add(const Expectation& expected, const Framebuffer& picture) {
   const auto& polygons = expected.polygons();
   for (int y = 0; y < picture.height; ++y) {
+    std::vector<int> by_spans;
     for (int x = 0; x < picture.width; ++x) {
       const auto covering = expected.covering(x, y);
       if (covering.size() < 2 || expected.admissible(x, y).size() != 1) continue;
@@ -65,6 +101,17 @@ void DepthStatistics::add(const Expectation& expected, const Framebuffer& pictur
       }
       right += shows(nearest), last_wins += shows(covering.back()), farthest_wins += shows(farthest);
       depth_always_written += shows(careless), mean_depth_wins += shows(mean);
+      if (by_spans.empty()) by_spans = row_by_spans(expected, y);
+      const int span = by_spans[static_cast<std::size_t>(x)];
+      whole_span_colored += span >= 0 ? shows(static_cast<std::uint32_t>(span)) : 0;
+      if (shows(nearest) != 0 || y == 0) continue;
+      const int below = expected.nearest(x, y - 1);
+      const auto shows_below = [&](int k) {
+        return k >= 0 && first_color(polygons[static_cast<std::size_t>(k)]) == pixel_at(picture, x, y - 1);
+      };
+      if (!shows_below(below)) continue;
+      ++wrong_begins;
+      kept_from_below += shows(static_cast<std::uint32_t>(below));
     }
   }
 }
@@ -72,6 +119,8 @@ void DepthStatistics::add(const Expectation& expected, const Framebuffer& pictur
 void DepthStatistics::add(const DepthStatistics& o) {
   decided += o.decided, right += o.right, last_wins += o.last_wins, farthest_wins += o.farthest_wins;
   depth_always_written += o.depth_always_written, mean_depth_wins += o.mean_depth_wins;
+  whole_span_colored += o.whole_span_colored, wrong_begins += o.wrong_begins,
+      kept_from_below += o.kept_from_below;
 }
 
 DepthStatistics::Name DepthStatistics::name() const {
@@ -87,14 +136,22 @@ DepthStatistics::Name DepthStatistics::name() const {
     return {"depth.order",
             "the polygon of smaller mean depth wins everywhere, not the one that is nearer at the pixel",
             "no order of whole polygons is right: compare depths at every pixel"};
+  if (fits(whole_span_colored))
+    return {"colour.stale", "a whole span is coloured as soon as one of its pixels is visible",
+            "write depth and colour together, and only where the depth test is won"};
+  if (nearly_all(kept_from_below, wrong_begins) && wrong_begins > 20)
+    return {"depth.stale", "what was visible in the row below is kept although something else is nearer",
+            "compare the depths in every row anew"};
   return {"depth.wrong", "the wrong polygon is in front", "compare the depths at this very pixel"};
 }
 
 void ColorStatistics::add(const Expectation& expected, const std::vector<WrongSample>& samples) {
   for (const WrongSample& s : samples) {
     if (s.kind != Wrong::color || s.expected_owner < 0) continue;
-    ++wrong;
     const ExactPolygon& p = expected.polygons()[static_cast<std::size_t>(s.expected_owner)];
+    // Where several methods are right there is nothing exact to compare with.
+    if (!p.plane(Attribute::r) || !p.plane(Attribute::g) || !p.plane(Attribute::b)) continue;
+    ++wrong;
     const double scale = 255.0 / (expected.drawing().frame.color - 1);
     if (flat.size() < p.corners.size()) flat.resize(p.corners.size());
     for (std::size_t k = 0; k < p.corners.size(); ++k) {

@@ -27,6 +27,9 @@ struct Problem {
 struct DepthStatistics {
   std::uint64_t decided = 0, right = 0;
   std::uint64_t last_wins = 0, farthest_wins = 0, depth_always_written = 0, mean_depth_wins = 0;
+  std::uint64_t whole_span_colored = 0;
+  /// Wrong samples above a right one, and how many of them show what is right below.
+  std::uint64_t wrong_begins = 0, kept_from_below = 0;
 
   void add(const Expectation& expected, const Framebuffer& picture);
   void add(const DepthStatistics& other);

@@ -15,8 +15,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-const std::vector<std::string> k_commands = {"render",  "export",  "raster", "convert", "spd", "info",
-                                             "compare", "plugins", "doctor", "table",   "new", "completion"};
+const std::vector<std::string> k_commands = {"render", "export",     "raster",  "convert", "spd",
+                                             "info",   "compare",    "plugins", "doctor",  "table",
+                                             "new",    "completion", "check"};
 
 Outcome must(const TemporaryFolder& folder, const std::string& command) {
   const Outcome run = shell(folder, command);
@@ -56,7 +57,7 @@ TEST(Help, ExamplesOfEveryCommandWork) {
       ++examples;
     }
   }
-  EXPECT_EQ(examples, 24);
+  EXPECT_EQ(examples, 26);
 }
 
 TEST(Trace, HasASliceOfEveryStageInsideTheWholeRun) {
