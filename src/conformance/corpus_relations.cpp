@@ -22,7 +22,7 @@ Drawing some_scene(Random& random, const Resolution& frame, int count, int margi
   }
   Drawing drawing = identified(frame, polygons);
   for (int i = 0; i < count; ++i)
-    set_depth(drawing.polygons[static_cast<std::size_t>(i)], 20 + 480 * ((i * 5) % count) / count);
+    set_depth(drawing.polygons[static_cast<std::size_t>(i)], 20 + 480 * ((i * 7) % count) / count);
   return drawing;
 }
 

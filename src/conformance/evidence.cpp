@@ -300,7 +300,8 @@ std::vector<FingerprintRow> fingerprint(const std::vector<Evidence>& evidence) {
     rows[row].owned += e.got.get(at.x, at.y) != 0 ? 1 : 0;
   };
   for (const Evidence& e : evidence) {
-    if (e.polygons.size() != 1) continue;
+    // Whatever has spikes or repeated corners has sides of both kinds at one place.
+    if (e.polygons.size() != 1 || (e.name != "tri4" && e.name != "quad4" && e.name != "tri-random")) continue;
     const TestPolygon p = turned_left(e.polygons.front());
     if (!is_convex(p)) continue;
     for (std::size_t i = 0; i < p.size(); ++i) {

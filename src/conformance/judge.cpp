@@ -26,9 +26,9 @@ class ChannelJudge {
     if (out < Rational{low, 1} - tolerance.bound || Rational{high, 1} + tolerance.bound < out)
       return Match::no;
     if (!options_.free_interpolation || polygon_.corners.size() != 4) return Match::within;
-    if (const auto row = scan_line_value(polygon_.corners, a, x, y);
-        row && compare(*row, tolerance, got) != Match::no)
-      return Match::within;
+    const auto row = scan_line_value(polygon_.corners, a, x, y);
+    // On edges that belong to it under other rules only, the scan line has no value: the range has to do.
+    if (!row || compare(*row, tolerance, got) != Match::no) return Match::within;
     for (std::size_t first = 0; first < 2; ++first) {
       for (std::size_t half = 0; half < 2; ++half) {
         const auto corner_at = [&](std::size_t i) { return polygon_.corners[(first + i) % 4]; };

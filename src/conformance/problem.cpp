@@ -183,10 +183,13 @@ void ColorStatistics::add(const Expectation& expected, const std::vector<WrongSa
         if (!p.plane(a)) continue;
         const Plane& q = *p.plane(a);
         const double step = static_cast<double>(q.a) / static_cast<double>(q.d);
-        double stepped = scale * (value + (s.x - start) * (step - slope));
-        stepped = std::clamp(stepped, 0.0, 255.0);
-        other = other || std::abs(stepped - s.got[c]) <= 1.3 * scale ||
-                std::abs(scale * q.at(s.x, s.y).value() - s.got[c]) <= 1.3 * scale;
+        // Right at the crossing or at the first pixel, then with the other's steps; a byte may wrap around.
+        for (const double from : {start, std::ceil(start - 1e-9)}) {
+          const double stepped = scale * (value + (s.x - from) * (step - slope));
+          other = other || std::abs(std::remainder(stepped - s.got[c], 256.0)) <= 1.3 * scale ||
+                  std::abs(std::clamp(stepped, 0.0, 255.0) - s.got[c]) <= 1.3 * scale;
+        }
+        other = other || std::abs(scale * q.at(s.x, s.y).value() - s.got[c]) <= 1.3 * scale;
       }
       mixed = mixed && other;
     }

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `farop check` as its user meets it.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+
+#include "support/shell.h"
+
+namespace {
+
+using namespace farop::test;
+
+TEST(CheckCommand, PassesTheShippedRasterizers) {
+  const TemporaryFolder folder;
+  for (const char* name : {"internal", "trapezoid", "scanline_fill", "watkins", "solids"}) {
+    const Outcome run = shell(folder, std::string("farop check -q ") + name);
+    EXPECT_EQ(run.status, 0) << run.out << run.err;
+    EXPECT_TRUE(run.out.starts_with("pass: ")) << run.out;
+  }
+}
+
+TEST(CheckCommand, ChecksProgramsAndLibrariesInThisProcess) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(shell(folder, "farop check -q --cmd 'farop raster -q {flat} -o {ppm}' --family smoke").status, 0);
+  EXPECT_EQ(shell(folder, "farop check -q trapezoid --in-process --quick").status, 0);
+}
+
+TEST(CheckCommand, NamesWhatIsWrongAndWritesTheExampleThatRepeatsIt) {
+  const TemporaryFolder folder;
+  // Upside down: the picture's rows are written in the wrong order.
+  const std::string upside_down =
+      "--cmd 'farop raster -q {flat} -o p.png && farop raster -q {flat} --y-down -o {ppm}'";
+  const Outcome run = shell(folder, "farop check -q " + upside_down + " --family smoke --examples found");
+  EXPECT_EQ(run.status, 1) << run.out << run.err;
+  EXPECT_TRUE(run.out.starts_with("E ")) << run.out;
+  EXPECT_NE(run.out.find("fail: "), std::string::npos);
+  EXPECT_NE(run.out.find("farop check --case found"), std::string::npos) << run.out;
+}
+
+TEST(CheckCommand, ListsItsCasesWithReasons) {
+  const TemporaryFolder folder;
+  const Outcome run = shell(folder, "farop check --list --family smoke");
+  EXPECT_EQ(run.status, 0);
+  EXPECT_NE(run.out.find("smoke/lecture#0@1"), std::string::npos) << run.out;
+}
+
+TEST(CheckCommand, RefusesWhatItDoesNotKnow) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(shell(folder, "farop check").status, 2);
+  EXPECT_EQ(shell(folder, "farop check internal --family nonsense").status, 2);
+  EXPECT_EQ(shell(folder, "farop check internal --case nonsense").status, 2);
+  EXPECT_EQ(shell(folder, "farop check internal --quick --thorough").status, 2);
+  EXPECT_EQ(shell(folder, "farop check null").status, 2);
+  EXPECT_EQ(shell(folder, "echo nonsense > bad.scr; farop check internal --case bad.scr").status, 1);
+}
+
+TEST(CheckCommand, RunsAFlatFileAsACase) {
+  const TemporaryFolder folder;
+  const Outcome run =
+      shell(folder,
+            "farop spd teapot --size 2 -o pot.nff -q; farop export pot.nff -o pot.scr -q --resolution "
+            "128x128 --triangles; farop check internal --case pot.scr -q");
+  EXPECT_EQ(run.status, 0) << run.out << run.err;
+  EXPECT_NE(run.out.find("pass: 1 cases"), std::string::npos) << run.out;
+}
+
+}  // namespace
