@@ -3,10 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <utility>
 
 #include "command_rasterizer.h"
 #include "conformance/corpus.h"
+#include "conformance/random.h"
+#include "core/output_file.h"
+#include "export/ppm_reader.h"
 #include "geometry/screen_triangles.h"
 #include "isolate/isolated_rasterizer.h"
 #include "plugin/plugin_rasterizer.h"
@@ -217,7 +221,102 @@ class CommandMaker : public SubjectMaker {
   std::string command_;
 };
 
+// ---- pictures made elsewhere ------------------------------------------------------------------------------
+
+/// The name of a drawing's files: by content, so that both runs agree whatever they draw in between.
+std::filesystem::path file_of(const std::string& folder, const Drawing& drawing, const char* suffix) {
+  return std::filesystem::path(folder) / (fmt::format("{:016x}", fnv1a(flat_text(drawing))) + suffix);
+}
+
+/// Writes each drawing as a flat file, and draws it right, so that the run goes on as for a right rasterizer.
+class EmittingSubject : public Subject {
+ public:
+  explicit EmittingSubject(std::string folder) : folder_(std::move(folder)), inner_(Color{}) {}
+  Delivered draw(const Drawing& drawing) override {
+    const std::string path = file_of(folder_, drawing, ".scr");
+    const std::string text = flat_text(drawing);
+    if (!text.empty() && !std::filesystem::exists(path)) {
+      OutputFile file(path);
+      file.write(text);
+      file.commit();
+    }
+    return inner_.draw(drawing);
+  }
+
+ private:
+  std::string folder_;
+  InternalSubject inner_;
+};
+
+class EmittingMaker : public SubjectMaker {
+ public:
+  explicit EmittingMaker(std::string folder) : folder_(std::move(folder)) {
+    std::error_code error;
+    std::filesystem::create_directories(folder_, error);
+    if (error)
+      throw Error(ExitStatus::surroundings, fmt::format("{}: {}", printable(folder_, 4096), error.message()));
+  }
+  std::unique_ptr<Subject> make(std::uint8_t) const override {
+    return std::make_unique<EmittingSubject>(folder_);
+  }
+  bool parallel() const override { return false; }
+
+ private:
+  std::string folder_;
+};
+
+class PictureSubject : public Subject {
+ public:
+  explicit PictureSubject(std::string folder) : folder_(std::move(folder)) {}
+  Delivered draw(const Drawing& drawing) override {
+    Delivered d;
+    const std::string path = file_of(folder_, drawing, ".ppm");
+    if (!std::filesystem::exists(path)) {
+      d.failure = SubjectFailure{"skip.no-picture",
+                                 fmt::format("there is no {}", printable(path, 4096)),
+                                 "draw every .scr of --emit",
+                                 {},
+                                 {},
+                                 false};
+      return d;
+    }
+    try {
+      d.picture = read_ppm(path);
+    } catch (const Error& error) {
+      d.failure = SubjectFailure{"abi.picture", error.what(), error.hint(), {}, {}, false};
+    }
+    return d;
+  }
+
+ private:
+  std::string folder_;
+};
+
+class PictureMaker : public SubjectMaker {
+ public:
+  explicit PictureMaker(std::string folder) : folder_(std::move(folder)) {
+    if (!std::filesystem::is_directory(folder_)) {
+      throw Error(ExitStatus::input, fmt::format("{}: is no folder", printable(folder_, 4096)),
+                  "--images takes the folder that --emit has filled");
+    }
+  }
+  std::unique_ptr<Subject> make(std::uint8_t) const override {
+    return std::make_unique<PictureSubject>(folder_);
+  }
+
+ private:
+  std::string folder_;
+};
+
 }  // namespace
+
+std::unique_ptr<SubjectMaker> make_emitter(const std::string& folder) {
+  return std::make_unique<EmittingMaker>(folder);
+}
+
+std::unique_ptr<SubjectMaker> make_picture_reader(const std::string& folder) {
+  return std::make_unique<PictureMaker>(folder);
+}
 
 std::unique_ptr<SubjectMaker> make_subjects(Session& session, const ChosenRasterizer& chosen,
                                             const RasterizerOptions& how, std::uint64_t seed) {

@@ -15,6 +15,11 @@ namespace farop::app {
 std::unique_ptr<conformance::SubjectMaker> make_subjects(Session& session, const ChosenRasterizer& chosen,
                                                          const RasterizerOptions& how, std::uint64_t seed);
 
+/// Draws right and writes every drawing as a flat file into `folder`: HASH.scr. For rasterizers on other
+/// machines; their pictures are HASH.ppm, in the same folder, on a black background.
+std::unique_ptr<conformance::SubjectMaker> make_emitter(const std::string& folder);
+std::unique_ptr<conformance::SubjectMaker> make_picture_reader(const std::string& folder);
+
 /// What the rasterizer says of itself, as far as it can be asked.
 conformance::PluginFacts describe_subject(const ChosenRasterizer& chosen, const RasterizerOptions& how,
                                           std::vector<std::string>& walls);

@@ -42,8 +42,9 @@ std::vector<const CLI::Option*> options_of_group(const CLI::App& command, const 
 }
 
 std::vector<std::string> option_groups(const CLI::App& command) {
-  static const std::vector<std::string> order = {"Input",   "Output",     "Scene",      "View",  "Geometry",
-                                                 "Drawing", "Rasterizer", "Comparison", "Report"};
+  static const std::vector<std::string> order = {"Input",      "Output",     "Scene", "View",
+                                                 "Geometry",   "Drawing",    "Cases", "Judging",
+                                                 "Rasterizer", "Comparison", "Report"};
   std::vector<std::string> out;
   for (const std::string& group : order) {
     if (!options_of_group(command, group).empty()) out.push_back(group);

@@ -65,4 +65,21 @@ TEST(CheckCommand, RunsAFlatFileAsACase) {
   EXPECT_NE(run.out.find("pass: 1 cases"), std::string::npos) << run.out;
 }
 
+TEST(CheckCommand, JudgesPicturesThatWereMadeElsewhere) {
+  const TemporaryFolder folder;
+  const std::string family = " --family smoke --family colour -q";
+  EXPECT_EQ(shell(folder, "farop check --emit away" + family).status, 0);
+  EXPECT_EQ(shell(folder, "farop check --images away" + family).status, 1) << "nothing is drawn yet";
+  EXPECT_EQ(shell(folder, "cd away && for f in *.scr; do farop raster -q $f -o ${f%.scr}.ppm; done").status,
+            0);
+  const Outcome run = shell(folder, "farop check --images away" + family);
+  EXPECT_EQ(run.status, 0) << run.out << run.err;
+  EXPECT_EQ(shell(folder,
+                  "for f in away/*.scr; do cp $(ls -S away/*.ppm | tail -1) ${f%.scr}.ppm; done; farop check "
+                  "--images away" +
+                      family)
+                .status,
+            1);
+}
+
 }  // namespace

@@ -30,7 +30,7 @@ struct CheckCommand {
   bool quick = false, thorough = false, list = false, beyond = false;
   std::uint64_t seed = 1;
   std::vector<std::string> families, cases;
-  std::string accepted = "lb", precision = "default", examples;
+  std::string accepted = "lb", precision = "default", examples, emit, images;
 };
 
 /// The polygons of a flat file as a case.
@@ -118,7 +118,8 @@ void write_examples(const CheckCommand& command, CheckResult& result) {
   fs::create_directories(command.examples, error);
   std::map<std::string, int> used;
   for (Finding& f : result.findings) {
-    if (f.examples.empty() || f.examples.front().flat.empty() || f.severity == conformance::Severity::none) continue;
+    if (f.examples.empty() || f.examples.front().flat.empty() || f.severity == conformance::Severity::none)
+      continue;
     conformance::Example& e = f.examples.front();
     const int n = ++used[f.verdict];
     e.file =
@@ -201,7 +202,13 @@ void run(Session& session, CheckCommand command) {
   }
   if (command.quick && command.thorough)
     throw Error(ExitStatus::usage, "--quick and --thorough are both given", "give one");
-  if (command.rasterizer.empty() && command.options.command.empty()) {
+  const bool named = !command.rasterizer.empty() || !command.options.command.empty();
+  const bool elsewhere = !command.emit.empty() || !command.images.empty();
+  if (named && elsewhere)
+    throw Error(ExitStatus::usage, "a rasterizer and --emit or --images are both given", "give one");
+  if (!command.emit.empty() && !command.images.empty())
+    throw Error(ExitStatus::usage, "--emit and --images are both given", "give one after the other");
+  if (!named && !elsewhere) {
     throw Error(ExitStatus::usage, "no rasterizer is given",
                 "name a library, a Python script, a rasterizer of `farop plugins`, or --cmd");
   }
@@ -209,7 +216,10 @@ void run(Session& session, CheckCommand command) {
   const ChosenRasterizer chosen = choose_rasterizer(command.options);
   const std::vector<Case> cases = chosen_cases(session, command);
   const auto begun = std::chrono::steady_clock::now();
-  const std::unique_ptr<SubjectMaker> maker = make_subjects(session, chosen, command.options, command.seed);
+  const std::unique_ptr<SubjectMaker> maker =
+      !command.emit.empty()     ? make_emitter(command.emit)
+      : !command.images.empty() ? make_picture_reader(command.images)
+                                : make_subjects(session, chosen, command.options, command.seed);
   CheckOptions options;
   options.accepted_rule = command.accepted;
   options.precision = command.precision == "nearest" ? Precision_ask::nearest
@@ -219,7 +229,17 @@ void run(Session& session, CheckCommand command) {
   options.progress = session.console.progress("checking");
   CheckResult result = run_check(cases, *maker, options);
   session.console.end_progress();
-  result.plugin = describe_subject(chosen, command.options, result.run.isolation);
+  if (!command.emit.empty()) {
+    session.console.summary("{}: the flat files of {} cases; draw each as .ppm beside it, then --images {}",
+                            command.emit, cases.size(), command.emit);
+    return;
+  }
+  if (command.images.empty()) {
+    result.plugin = describe_subject(chosen, command.options, result.run.isolation);
+  } else {
+    result.plugin.kind = "images",
+    result.plugin.argument = result.plugin.name = printable(command.images, 4096);
+  }
   result.run.program_version = k_version;
   result.run.level = command.quick ? "quick" : command.thorough ? "thorough" : "default";
   result.run.seed = command.seed;
@@ -248,6 +268,12 @@ void add_check(CommandLine& line) {
                        [options](Session& session) { run(session, *options); });
   command.add_option("rasterizer", options->rasterizer, "yours, or a name that `farop plugins` shows")
       ->type_name("NAME|FILE.so|FILE.py")
+      ->group("Input");
+  command.add_option("--emit", options->emit, "only write the flat files, for a rasterizer elsewhere")
+      ->type_name("DIR")
+      ->group("Input");
+  command.add_option("--images", options->images, "check the pictures that were made of them")
+      ->type_name("DIR")
       ->group("Input");
   const auto cases = [](CLI::Option* option) { return option->group("Cases"); };
   cases(command.add_flag("--quick", options->quick, "smoke test and exhaustive sheets"));
