@@ -20,6 +20,12 @@ TEST(CheckCommand, PassesTheShippedRasterizers) {
   }
 }
 
+TEST(CheckCommand, PassesARightRasterizerThoroughlyWithAnotherSeed) {
+  const TemporaryFolder folder;
+  const Outcome run = shell(folder, "farop check -q trapezoid --thorough --seed 7");
+  EXPECT_EQ(run.status, 0) << run.out << run.err;
+}
+
 TEST(CheckCommand, ChecksProgramsAndLibrariesInThisProcess) {
   const TemporaryFolder folder;
   EXPECT_EQ(shell(folder, "farop check -q --cmd 'farop raster -q {flat} -o {ppm}' --family smoke").status, 0);
