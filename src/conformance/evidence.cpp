@@ -217,7 +217,10 @@ CoverageCause cause_by_looks(const std::vector<Evidence>& evidence, const std::v
     return say("cov.row-extra", "whole rows are too many",
                "the top row does not belong: an edge lives for ymin <= y < ymax");
   const bool leaks = 20 * far > in_windows || 10 * sum.outside_bounds > in_windows;
-  if ((leaks || by_name.size() == 1) && (leaks || by_name.contains("bridge")))
+  // Only where an edge is walked twice: crossings that should cancel do not.
+  const bool at_bridges = std::ranges::all_of(
+      by_name, [](const auto& entry) { return entry.first == "bridge" || entry.first == "vertex-kinds"; });
+  if (leaks || at_bridges)
     return say("cov.leak", "rows are filled beyond the polygon: the count of crossings is wrong there",
                "a vertex must add an even number of crossings to its row: give every edge the rows ymin <= y "
                "< ymax");
