@@ -218,8 +218,11 @@ CoverageCause cause_by_looks(const std::vector<Evidence>& evidence, const std::v
                "the top row does not belong: an edge lives for ymin <= y < ymax");
   const bool leaks = 20 * far > in_windows || 10 * sum.outside_bounds > in_windows;
   // Only where an edge is walked twice: crossings that should cancel do not.
-  const bool at_bridges = std::ranges::all_of(
-      by_name, [](const auto& entry) { return entry.first == "bridge" || entry.first == "vertex-kinds"; });
+  const auto twice = [](const auto& entry) {
+    return entry.first == "bridge" || entry.first == "vertex-kinds" || entry.first == "dup" ||
+           entry.first == "zero-area";
+  };
+  const bool at_bridges = by_name.contains("bridge") && std::ranges::all_of(by_name, twice);
   if (leaks || at_bridges)
     return say("cov.leak", "rows are filled beyond the polygon: the count of crossings is wrong there",
                "a vertex must add an even number of crossings to its row: give every edge the rows ymin <= y "
