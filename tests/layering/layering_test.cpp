@@ -32,13 +32,15 @@ const std::map<std::string, Rooms> k_may_include = {
     {"isolate", {"core", "shading", "plugin"}},
     {"export", {"core", "shading", "scene"}},
     {"conformance", {"core"}},
+    {"conformance_report", {"core", "conformance"}},
 };
 
 /// Third-party headers by their first folder -> the only places that may include them.
 const std::map<std::string, Rooms> k_guests = {{"CGAL", {"src/geometry", "src/solids"}},
                                                {"OpenImageIO", {"src/export"}},
                                                {"CLI", {"apps/farop"}},
-                                               {"nlohmann", {"apps/farop"}}};
+                                               {"nlohmann", {"apps/farop", "src/conformance_report"}},
+                                               {"mstch", {"src/conformance_report"}}};
 
 /// First folder of an #include line, "" for anything else.
 std::string included_folder(const std::string& line) {

@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""validate.py json|xml FILE SCHEMA: exit status 0 when the file is as it should be, 77 when the validator is missing."""
+import json
+import sys
+import xml.etree.ElementTree as tree
+
+kind, file, schema = sys.argv[1:]
+if kind == "json":
+    try:
+        import jsonschema
+    except ImportError:
+        sys.exit(77)
+    with open(schema) as s, open(file) as f:
+        rules = json.load(s)
+        jsonschema.Draft7Validator.check_schema(rules)
+        jsonschema.validate(json.load(f), rules)
+else:
+    root = tree.parse(file).getroot()
+    assert root.tag == "testsuites", root.tag
+    for suite in root:
+        assert suite.tag == "testsuite" and int(suite.get("tests")) == len(suite.findall("testcase")), suite.attrib
+        for found, counter in (("failure", "failures"), ("error", "errors"), ("skipped", "skipped")):
+            assert len(suite.findall(f"testcase/{found}")) == int(suite.get(counter)), (suite.attrib, found)
