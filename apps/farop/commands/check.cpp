@@ -11,6 +11,7 @@
 #include <memory>
 #include <thread>
 
+#include "check_reports.h"
 #include "check_subjects.h"
 #include "command_line.h"
 #include "core/output_file.h"
@@ -31,6 +32,7 @@ struct CheckCommand {
   std::uint64_t seed = 1;
   std::vector<std::string> families, cases;
   std::string accepted = "lb", precision = "default", examples, emit, images;
+  CheckReports reports;
 };
 
 /// The polygons of a flat file as a case.
@@ -215,6 +217,7 @@ void run(Session& session, CheckCommand command) {
   if (!command.rasterizer.empty()) command.options.name = command.rasterizer;
   const ChosenRasterizer chosen = choose_rasterizer(command.options);
   const std::vector<Case> cases = chosen_cases(session, command);
+  begin_check_reports(command.reports);
   const auto begun = std::chrono::steady_clock::now();
   const std::unique_ptr<SubjectMaker> maker =
       !command.emit.empty()     ? make_emitter(command.emit)
@@ -240,6 +243,16 @@ void run(Session& session, CheckCommand command) {
     result.plugin.kind = "images",
     result.plugin.argument = result.plugin.name = printable(command.images, 4096);
   }
+  result.run.command = fmt::format(
+      "farop check {} --seed {}{}{}",
+      command.options.command.empty() ? command.rasterizer : "--cmd '" + command.options.command + "'",
+      command.seed,
+      command.quick      ? " --quick"
+      : command.thorough ? " --thorough"
+                         : "",
+      command.accepted == "lb" ? "" : " --accept-rule \"" + command.accepted + "\"");
+  for (const std::string& name : command.families) result.run.command += " --family " + name;
+  for (const std::string& name : command.cases) result.run.command += " --case '" + name + "'";
   result.run.program_version = k_version;
   result.run.level = command.quick ? "quick" : command.thorough ? "thorough" : "default";
   result.run.seed = command.seed;
@@ -248,7 +261,8 @@ void run(Session& session, CheckCommand command) {
   result.run.in_process = command.options.in_process, result.run.workers = options.workers;
   result.run.time_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   write_examples(command, result);
-  OutputFile out("-");
+  write_check_reports(command.reports, result);
+  OutputFile out(command.reports.to_stdout() ? "/dev/null" : "-");
   out.write(report_of(result, session.options.color == "always" ||
                                   (session.options.color == "auto" && ::isatty(STDOUT_FILENO) != 0)));
   out.commit();
@@ -299,6 +313,7 @@ void add_check(CommandLine& line) {
               ->type_name("default|nearest|exact"));
   judging(command.add_option("--examples", options->examples, "write the smallest drawings that fail there")
               ->type_name("DIR"));
+  add_check_reports(command, options->reports);
   RasterizerOptions& r = options->options;
   add_rasterizer_options(command, r);
   command.remove_option(command.get_option("--rasterizer"));

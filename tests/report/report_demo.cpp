@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Writes the page of the synthetic result of the unit tests to standard output.
+#include <cstdio>
+#include <string>
+
+#include "conformance_report/html_report.h"
+#include "sample_result.h"
+
+int main() {
+  const std::string page = farop::conformance_report::to_html(farop::conformance_report::sample_result());
+  return std::fwrite(page.data(), 1, page.size(), stdout) == page.size() ? 0 : 1;
+}
