@@ -39,7 +39,8 @@ std::string lines(std::string_view text, std::size_t limit = k_text_limit) {
 
 std::string number(std::uint64_t n) {
   std::string s = std::to_string(n);
-  for (int at = static_cast<int>(s.size()) - 3; at > 0; at -= 3) s.insert(static_cast<std::size_t>(at), " ");
+  for (int at = static_cast<int>(s.size()) - 3; at > 0; at -= 3)
+    s.insert(static_cast<std::size_t>(at), "\u00A0");  // no line break inside
   return s;
 }
 
@@ -64,7 +65,13 @@ mstch::map row_node(const Example& e, const TestPolygon& polygon) {
     crossing_nodes.push_back(mstch::map{{"x", "x = " + fraction(c.numerator, c.denominator)},
                                         {"edge", corner_text(c.from) + " - " + corner_text(c.to)}});
   }
-  const int first = std::max(0, e.pixels.front().x - 6), last = std::min(e.frame.x - 1, first + 15);
+  const int first = std::max(0, e.pixels.front().x - 6), widest = std::min(e.frame.x - 1, first + 15);
+  // Behind the last crossing and the last wrong pixel nothing happens any more.
+  int last = first + 1;
+  if (!row.empty())
+    last = std::max<int>(last, static_cast<int>(row.back().numerator / row.back().denominator) + 2);
+  for (const WrongPixel& p : e.pixels) last = p.y == y ? std::max(last, p.x + 1) : last;
+  last = std::min(last, widest);
   for (int x = first; x <= last; ++x) {
     const int count = crossings_up_to(row, x);
     const auto wrong =
@@ -218,8 +225,13 @@ class Page {
   }
 
   void add_example(mstch::map& node, const Example& e) {
-    node["command"] = printable(e.command, k_text_limit);
-    node["has_command"] = !e.command.empty();
+    // Without a file of its own an example is repeated by its case.
+    std::string command = e.command;
+    if (command.empty() && !e.from_case.empty() && !result_.run.command.empty() &&
+        result_.run.command.find(" --case ") == std::string::npos)
+      command = result_.run.command + " --case '" + e.from_case + "'";
+    node["command"] = printable(command, k_text_limit);
+    node["has_command"] = !command.empty();
     if (used_ > k_page_budget) {
       ++left_out_;
       return;

@@ -184,7 +184,14 @@
     wrongAt = wrongAt < 0 ? (by > 0 ? 0 : p.wrong.length - 1) : (wrongAt + by + p.wrong.length) % p.wrong.length;
     look(p.wrong[wrongAt][0], p.wrong[wrongAt][1]);
   };
-  const choose = (k) => { current = k, $('v-picture').value = k, pixel = null, wrongAt = -1; fit(); };
+  const choose = (k) => { current = k, $('v-picture').value = k, pixel = null, wrongAt = -1;
+    fit();
+    // Small causes in a large frame: begin close to them.
+    const w = load(k).wrong[0];
+    if (!w || scale >= 24) return;
+    scale = 24, originX = Math.max(0, w[0] + 1 - paneWidth() / 48), originY = Math.min(load(k).h - canvas.height / 24, load(k).h - w[1] - canvas.height / 48);
+    update();
+  };
 
   // ---- controls
   data.forEach((d, k) => $('v-picture').add(new Option(`${k + 1}: ${d.case}`, k)));
