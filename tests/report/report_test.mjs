@@ -88,6 +88,11 @@ try {
     assert.ok(await colours() > 1, mode);
   }
 
+  // The row, step by step.
+  await page.locator('.stepper').first().fill('1');
+  const now = await page.locator('table.steps').first().locator('tr.now td').first().textContent();
+  assert.equal(await page.locator('.lattice .step').first().getAttribute('cx'), now);
+
   // The filter box.
   const shown = () => page.$$eval('#cases tbody tr', (rows) => rows.filter((r) => !r.hidden).length);
   const all = await shown();

@@ -18,6 +18,25 @@
   };
   filter.addEventListener('input', applyFilter);
   applyFilter();
+
+  // A slider under each row table replays the row from left to right, in the table and in the drawing.
+  for (const table of document.querySelectorAll('table.steps')) {
+    const article = table.closest('.finding'), band = article.querySelector('.lattice .row');
+    const steps = [...table.tBodies[0].rows], slider = document.createElement('input');
+    slider.type = 'range', slider.className = 'stepper', slider.min = 0, slider.max = steps.length - 1, slider.value = 0;
+    slider.setAttribute('aria-label', `step along the row, ${article.id}`);
+    const here = band && document.createElementNS('http://www.w3.org/2000/svg', 'circle');
+    if (here) here.setAttribute('class', 'step'), here.setAttribute('r', .2), band.after(here);
+    slider.addEventListener('input', () => {
+      steps.forEach((row, i) => row.classList.toggle('now', i === Number(slider.value)));
+      const cells = steps[slider.value].cells;
+      slider.setAttribute('aria-valuetext', `x ${cells[0].textContent}: ${cells[1].textContent} crossings, ${cells[2].textContent}`);
+      if (!here) return;
+      here.setAttribute('cx', cells[0].textContent);
+      here.setAttribute('cy', Number(band.getAttribute('y')) + .5);
+    });
+    table.parentElement.after(slider);
+  }
   if (data.length === 0) return;
 
   const canvas = $('v-canvas'), context = canvas.getContext('2d');
