@@ -43,9 +43,9 @@ def faults_of(row, status, findings):
     """What a mutant's findings lack."""
     if status not in (0, 1):
         return [f"exit status {status}"]
-    if "+" in row["verdict"]:
-        faults = [f"no {p}" for p in row["verdict"].split("+") if not found(p, findings)]
-        expected = row["verdict"].split("+")
+    if "&" in row["verdict"]:
+        faults = [f"no {p}" for p in row["verdict"].split("&") if not found(p, findings)]
+        expected = row["verdict"].split("&")
     else:
         expected = row["verdict"].split(",")
         faults = [] if any(found(p, findings) for p in expected) else [f"no {row['verdict']}"]
