@@ -72,6 +72,7 @@ CommandLine::CommandLine()
   add_compare(*this);
   add_plugins(*this);
   add_doctor(*this);
+  add_bench(*this);
   add_table(*this);
   add_new(*this);
   add_completion(*this);

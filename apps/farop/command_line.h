@@ -61,6 +61,7 @@ void add_plugins(CommandLine& line);
 void add_check(CommandLine& line);
 void add_doctor(CommandLine& line);
 void add_table(CommandLine& line);
+void add_bench(CommandLine& line);
 void add_new(CommandLine& line);
 void add_completion(CommandLine& line);
 void add_man(CommandLine& line);

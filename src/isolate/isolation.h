@@ -36,7 +36,7 @@ struct IsolationOptions {
   /// No-man's-land behind the vertices of every single polygon, and none of them can be looked at once its
   /// polygon() has returned. Slow: for checks. Otherwise so for every quarter of a megabyte of polygons.
   bool guard_every_polygon = false;
-  bool check = false;      ///< a PluginCheck stands before the rasterizer
+  bool check = false;  ///< a PluginCheck stands before the rasterizer
   /// Byte (or its complement) that memory fresh from malloc is filled with; 0: as it comes. Shows who reads
   /// what he never wrote.
   std::uint8_t fresh_memory = 0;

@@ -17,7 +17,7 @@ using Json = nlohmann::json;
 
 const std::vector<std::string> k_commands = {"render", "export",     "raster",  "convert", "spd",
                                              "info",   "compare",    "plugins", "doctor",  "table",
-                                             "new",    "completion", "check"};
+                                             "new",    "completion", "check",   "bench"};
 
 Outcome must(const TemporaryFolder& folder, const std::string& command) {
   const Outcome run = shell(folder, command);
@@ -57,7 +57,7 @@ TEST(Help, ExamplesOfEveryCommandWork) {
       ++examples;
     }
   }
-  EXPECT_EQ(examples, 26);
+  EXPECT_EQ(examples, 28);
 }
 
 TEST(Trace, HasASliceOfEveryStageInsideTheWholeRun) {
