@@ -32,7 +32,8 @@ class Resampler {
 Estimate with_interval(double value, std::vector<double> resampled) {
   std::sort(resampled.begin(), resampled.end());
   const auto at = [&](double fraction) {
-    return resampled[static_cast<std::size_t>(fraction * static_cast<double>(resampled.size() - 1) + 0.5)];
+    return resampled[static_cast<std::size_t>(
+        std::lround(fraction * static_cast<double>(resampled.size() - 1)))];
   };
   return {value, at(0.025), at(0.975)};
 }
@@ -63,6 +64,7 @@ Estimate paired_ratio(std::span<const double> a, std::span<const double> b) {
   for (std::size_t i = 0; i < a.size(); ++i) ratios.push_back(b[i] / a[i]);
   Resampler resampler;
   std::vector<double> medians;
+  medians.reserve(k_resamples);
   for (int i = 0; i < k_resamples; ++i) medians.push_back(median(resampler.draw(ratios)));
   return with_interval(median(ratios), std::move(medians));
 }
@@ -77,6 +79,7 @@ Estimate growth_exponent(std::span<const double> x, std::span<const std::vector<
   };
   Resampler resampler;
   std::vector<double> slopes;
+  slopes.reserve(k_resamples);
   for (int i = 0; i < k_resamples; ++i) {
     slopes.push_back(fit([&](const std::vector<double>& values) { return resampler.draw(values); }));
   }
