@@ -2,12 +2,13 @@
 # Install rules: the program, its manual, and the stages as libraries for find_package(farop).
 include(CMakePackageConfigHelpers)
 
-set(stages core shading scene parse_nff spd geometry solids raster shadow plugin isolate export)
+set(stages core shading scene parse_nff parse_sipp spd geometry solids raster shadow plugin isolate export)
 install(TARGETS farop_pictures EXPORT farop-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 foreach(stage IN LISTS stages)
   install(TARGETS farop_${stage} EXPORT farop-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/${stage} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/farop
-          FILES_MATCHING PATTERN "*.h" PATTERN "*_internal.h" EXCLUDE)
+          FILES_MATCHING PATTERN "*.h" PATTERN "*_internal.h" EXCLUDE PATTERN "tcl_*.h" EXCLUDE
+          PATTERN "script*.h" EXCLUDE)
 endforeach()
 install(TARGETS farop_sipp_model farop_sipp EXPORT farop-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
@@ -22,8 +23,9 @@ configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/farop-config.cmake.in 
                               INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/farop)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/farop-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/farop-config.cmake ${PROJECT_BINARY_DIR}/farop-config-version.cmake
-              ${PROJECT_SOURCE_DIR}/cmake/FaropOpenImageIO.cmake ${PROJECT_SOURCE_DIR}/cmake/FaropPlugin.cmake
+              ${PROJECT_SOURCE_DIR}/cmake/FaropOpenImageIO.cmake ${PROJECT_SOURCE_DIR}/cmake/FaropTcl.cmake
+              ${PROJECT_SOURCE_DIR}/cmake/FaropPlugin.cmake
               ${PROJECT_SOURCE_DIR}/plugins/exports.map
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/farop)
 install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
-install(DIRECTORY spd_scenes/ DESTINATION ${CMAKE_INSTALL_DATADIR}/farop/scenes FILES_MATCHING PATTERN "*.nff")
+install(DIRECTORY spd_scenes/ DESTINATION ${CMAKE_INSTALL_DATADIR}/farop/scenes FILES_MATCHING PATTERN "*.nff" PATTERN "*.sipp")

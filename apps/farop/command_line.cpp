@@ -101,8 +101,10 @@ void CommandLine::add_report_options(CLI::App& command) {
                   "write when each stage ran, for Perfetto or chrome://tracing")
       ->type_name("FILE.json")
       ->group("Report");
-  command.add_flag("-v,--verbose", options.verbose, "tell every step, light and surface")->group("Report");
-  command.add_flag("-q,--quiet", options.quiet, "tell only warnings and errors")->group("Report");
+  command.add_flag("-v,--verbose", options.verbose, "tell every step, or only warnings and errors")
+      ->group("Report");
+  command.add_flag("-q,--quiet", options.quiet, "tell every step, or only warnings and errors")
+      ->group("Report");
   command.add_flag("--no-progress", options.no_progress, "no progress bar")->group("Report");
   command.add_option("--color", options.color, "coloured messages [auto]")
       ->check(CLI::IsMember({"auto", "always", "never"}))

@@ -83,8 +83,14 @@ std::string command_help(const CLI::App& command, const std::vector<Example>& ex
   std::string out = fmt::format("{}\nUsage: {}\n", command.get_description(), usage_line(command));
   for (const std::string& group : option_groups(command)) {
     out += fmt::format("\n{}\n", group);
-    for (const CLI::Option* option : options_of_group(command, group)) {
-      out += row(option_signature(*option), option->get_description());
+    const std::vector<const CLI::Option*> options = options_of_group(command, group);
+    for (std::size_t i = 0; i < options.size(); ++i) {
+      // Neighbours that one text describes share a row.
+      std::string signature = option_signature(*options[i]);
+      while (i + 1 < options.size() && options[i + 1]->get_description() == options[i]->get_description()) {
+        signature += ", " + option_signature(*options[++i]);
+      }
+      out += row(signature, options[i]->get_description());
     }
   }
   return out + examples_text(examples);

@@ -53,10 +53,40 @@ void add_input_options(CLI::App& command, InputOptions& options) {
       ->type_name("IN")
       ->group("Input");
   command.add_option("--format", options.format, "format of inputs whose suffix does not tell [nff]")
-      ->check(CLI::IsMember({"nff"}))
-      ->type_name("nff")
+      ->check(CLI::IsMember({"nff", "sipp"}))
+      ->type_name("nff|sipp")
       ->group("Input");
   command.add_flag("--strict", options.strict, "treat warnings as errors")->group("Input");
+  const char* script = "scripts: set a variable; which SippRender counts [1]";
+  command.add_option("--define", options.defines, script)
+      ->type_name("NAME=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->group("Input");
+  command.add_option("--capture", options.capture, script)
+      ->check(CLI::Range(1, 1'000'000'000))
+      ->type_name("N")
+      ->group("Input");
+  ScriptLimits& limits = options.limits;
+  const std::string most =
+      fmt::format("what scripts may use up [{:g} s, {} MB, {:g}, {:g}]", limits.seconds, limits.memory_mb,
+                  static_cast<double>(limits.commands), static_cast<double>(limits.polygons));
+  command.add_option("--script-time", limits.seconds, most)
+      ->check(CLI::Range(0.001, 1e6))
+      ->type_name("S")
+      ->group("Input");
+  command.add_option("--script-memory", limits.memory_mb, most)
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 24))
+      ->type_name("MB")
+      ->group("Input");
+  command.add_option("--script-commands", limits.commands, most)
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{2'147'483'647}))
+      ->type_name("N")
+      ->group("Input");
+  command.add_option("--script-polygons", limits.polygons, most)
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000'000}))
+      ->type_name("N")
+      ->group("Input");
 }
 
 void add_output_option(CLI::App& command, std::string& output, const std::string& what, bool required) {
@@ -71,17 +101,18 @@ void add_camera_options(CLI::App& command, ViewOptions& options) {
   command.add_option("--resolution", options.resolution, "pixels WxH, or X Y Z C with depths and colours")
       ->type_name("WxH")
       ->group("View");
-  add_triple(command, "--from", options.from, "eye point, world coordinates");
-  add_triple(command, "--at", options.at, "point in the middle of the picture");
-  add_triple(command, "--up", options.up, "direction that is up in the picture");
+  add_triple(command, "--from", options.from, "eye point, middle of the picture, direction that is up in it");
+  add_triple(command, "--at", options.at, "eye point, middle of the picture, direction that is up in it");
+  add_triple(command, "--up", options.up, "eye point, middle of the picture, direction that is up in it");
   command.add_option("--angle", options.angle, "full angle of view, degrees")
       ->check(CLI::Number)
       ->type_name("DEG")
       ->group("View");
-  command.add_option("--hither", options.hither, "near plane, distance from the eye >= 0")
+  command
+      .add_option("--hither", options.hither, "near and far plane, distances; auto: just behind the scene")
       ->type_name("D")
       ->group("View");
-  command.add_option("--yon", options.yon, "far plane: distance, inf, or auto (just behind the scene)")
+  command.add_option("--yon", options.yon, "near and far plane, distances; auto: just behind the scene")
       ->type_name("D|auto|inf")
       ->group("View");
   command.add_option("--fit", options.fit, "dimension that the angle measures [vertical]")

@@ -10,6 +10,7 @@
 
 #include "core/screen_polygon.h"
 #include "geometry/pipeline.h"
+#include "parse_sipp/parse_sipp.h"
 #include "raster/internal_rasterizer.h"
 #include "scene/scene.h"
 
@@ -17,8 +18,12 @@ namespace farop::app {
 
 struct InputOptions {
   std::vector<std::string> files;
-  std::string format;  ///< "nff", or empty: by suffix
+  std::string format;  ///< "nff", "sipp", or empty: by suffix
   bool strict = false;
+  // Of scripts:
+  std::vector<std::string> defines;  ///< NAME=VALUE
+  int capture = 1;                   ///< which render request counts
+  ScriptLimits limits;
 };
 
 /// View parameters given as options; they override every input.

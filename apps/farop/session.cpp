@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/word_reader.h"
 #include "parse_nff/parse_nff.h"
+#include "parse_sipp/parse_sipp.h"
 #include "scene/merge.h"
 #include "scene/plane.h"
 #include "scene/traverse.h"
@@ -27,13 +28,21 @@ std::string lower_suffix(const std::string& file) {
   return suffix;
 }
 
+bool is_script(const std::string& file, const InputOptions& options) {
+  const std::string suffix = lower_suffix(file);
+  if (suffix == ".sipp" || suffix == ".tcl") return true;
+  return suffix != ".nff" && options.format == "sipp";
+}
+
 void check_format(const std::string& file, const InputOptions& options) {
-  if (!options.format.empty() || file == "-" || lower_suffix(file) == ".nff") return;
+  const std::string suffix = lower_suffix(file);
+  if (!options.format.empty() || file == "-" || suffix == ".nff" || is_script(file, options)) return;
   std::error_code ec;
   if (!fs::exists(file, ec) || fs::is_directory(file, ec)) return;  // the reader says what is wrong with it
   throw Error(ExitStatus::usage,
-              fmt::format("{}: the suffix does not tell the format, expected .nff", printable(file, 200)),
-              "say --format nff if that is what it is");
+              fmt::format("{}: the suffix does not tell the format, expected .nff, .sipp or .tcl",
+                          printable(file, 200)),
+              "say --format nff or --format sipp if that is what it is");
 }
 
 void log_time(Console& console, const StageTime& t) {
@@ -41,7 +50,14 @@ void log_time(Console& console, const StageTime& t) {
               t.system);
 }
 
-Scene load_input(Session& session, const std::string& file) {
+void log_import(Console& console, const Scene& scene) {
+  log_scene(console, scene);
+  const InputSummary& in = scene.inputs.front();
+  console.log("Imported {} surfaces with {} polygons, {} spheres and {} cones.", in.surfaces,
+              in.polygons + in.patches, in.spheres, in.cones);
+}
+
+Scene load_nff(Session& session, const std::string& file) {
   WordReader reader(file);
   NffOptions options;
   options.progress = session.console.progress("parsing");
@@ -50,11 +66,36 @@ Scene load_input(Session& session, const std::string& file) {
   std::optional<Scene> scene = parse_nff(reader, session.console, options);
   session.console.end_progress();
   if (!scene) throw Error(ExitStatus::input, "");
-  log_scene(session.console, *scene);
-  const InputSummary& in = scene->inputs.front();
-  session.console.log("Imported {} surfaces with {} polygons, {} spheres and {} cones.", in.surfaces,
-                      in.polygons + in.patches, in.spheres, in.cones);
+  log_import(session.console, *scene);
   session.console.log("NFF parser done");
+  return std::move(*scene);
+}
+
+SippOptions script_options(Console& console, const InputOptions& input) {
+  SippOptions options;
+  options.limits = input.limits;
+  options.capture = input.capture;
+  for (const std::string& define : input.defines) {
+    const std::size_t equals = define.find('=');
+    const std::string name = define.substr(0, equals);
+    if (equals == std::string::npos || !is_variable_name(name)) {
+      throw Error(ExitStatus::usage,
+                  fmt::format("--define: '{}' found, expected NAME=VALUE", printable(define)),
+                  "a name has letters, digits and _, like --define frame=12");
+    }
+    options.variables.emplace_back(name, define.substr(equals + 1));
+  }
+  options.log = [&console](const std::string& line) { console.log("script: {}", line); };
+  return options;
+}
+
+Scene load_script(Session& session, const std::string& file, const SippOptions& options) {
+  session.console.log("SIPP scene '{}' will be imported!", file);
+  session.console.log("Running SIPP script, wait...");
+  std::optional<Scene> scene = parse_sipp(file, session.console, options);
+  if (!scene) throw Error(ExitStatus::input, "");
+  log_import(session.console, *scene);
+  session.console.log("SIPP script done");
   return std::move(*scene);
 }
 
@@ -139,12 +180,13 @@ void load_inputs(Session& session, const InputOptions& options) {
   if (std::count(options.files.begin(), options.files.end(), "-") > 1) {
     throw Error(ExitStatus::usage, "standard input (-) is given twice", "it can be read only once");
   }
+  const SippOptions scripts = script_options(session.console, options);
   for (const std::string& file : options.files) {
     check_format(file, options);
     std::optional<Scene> next;
     {
       const TimedSlice slice(session.clocks.parse);
-      next = load_input(session, file);
+      next = is_script(file, options) ? load_script(session, file, scripts) : load_nff(session, file);
     }
     const TimedSlice slice(session.clocks.load);
     merge_into(session.scene, std::move(*next), session.console);

@@ -65,6 +65,8 @@ class PolygonList {
   bool empty() const { return count_ == 0; }
 
   std::size_t memory_bytes() const { return records_.capacity() * sizeof(std::uint32_t); }
+  /// All records as they lie in memory: for passing a list on whole.
+  std::span<const std::uint32_t> records() const { return records_; }
 
   friend bool operator==(const PolygonList&, const PolygonList&) = default;
 

@@ -39,11 +39,13 @@ const std::map<std::string, Rooms> k_may_include = {
 const std::map<std::string, Rooms> k_guests = {{"CGAL", {"src/geometry", "src/solids"}},
                                                {"OpenImageIO", {"src/export"}},
                                                {"CLI", {"apps/farop"}},
+                                               {"tcl.h", {"src/parse_sipp"}},
                                                {"nlohmann", {"apps/farop", "src/conformance_report"}},
                                                {"mstch", {"src/conformance_report"}}};
 
 /// First folder of an #include line, "" for anything else.
 std::string included_folder(const std::string& line) {
+  if (line.starts_with("#include <tcl.h>")) return "tcl.h";
   const std::size_t open = line.find_first_of("<\"");
   const std::size_t slash = line.find('/');
   if (!line.starts_with("#include") || open == std::string::npos || slash == std::string::npos) return "";

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Scripts as scenes, as a user runs them: pictures and conversions of our own scenes, what the pages promise,
+// and scripts that mean harm.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "support/shell.h"
+
+namespace farop::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path k_source = FAROP_SOURCE_DIR;
+
+#if defined(__SANITIZE_ADDRESS__)
+constexpr double k_patience = 30;  // seconds beyond a limit
+#else
+constexpr double k_patience = 6;
+#endif
+
+Outcome must(const TemporaryFolder& folder, const std::string& command) {
+  const Outcome run = shell(folder, command);
+  EXPECT_EQ(run.status, 0) << command << "\n" << run.err;
+  return run;
+}
+
+int count(const std::string& text, const std::string& word) {
+  int n = 0;
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++n;
+  return n;
+}
+
+// ---- scripts that mean harm ----
+
+struct HostileCase {
+  std::string name, options, message;
+};
+
+std::vector<HostileCase> hostile_cases() {
+  std::vector<HostileCase> cases;
+  std::ifstream manifest(k_source / "tests/sipp/hostile/manifest.txt");
+  for (std::string line; std::getline(manifest, line);) {
+    if (line.empty() || line[0] == '#') continue;
+    std::istringstream fields(line);
+    HostileCase c;
+    std::getline(fields, c.name, '\t');
+    std::getline(fields, c.options, '\t');
+    std::getline(fields, c.message);
+    if (c.options == "-") c.options.clear();
+    cases.push_back(c);
+  }
+  return cases;
+}
+
+/// Every file below a folder with its size; links are not followed.
+std::map<std::string, std::uintmax_t> files_below(const fs::path& folder) {
+  std::map<std::string, std::uintmax_t> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const bool plain = !entry.is_symlink() && entry.is_regular_file();
+    files[entry.path().lexically_relative(folder).string()] = plain ? entry.file_size() : 0;
+  }
+  return files;
+}
+
+class HostileScripts : public testing::TestWithParam<HostileCase> {};
+
+TEST_P(HostileScripts, EndWithOneMessage) {
+  const HostileCase& c = GetParam();
+  const TemporaryFolder folder;
+  fs::create_directories(folder / "scene/sub");
+  fs::copy_file(k_source / "tests/sipp/hostile" / (c.name + ".sipp"), folder / "scene/hostile.sipp");
+  write_file(folder / "outside.tcl", "puts outside\n");
+  fs::create_symlink("../outside.tcl", folder / "scene/link.tcl");
+  fs::create_directory_symlink("../..", folder / "scene/sub/link");
+  must(folder, "mkfifo scene/fifo.tcl");
+  const auto before = files_below(folder.path());
+  const auto start = std::chrono::steady_clock::now();
+  const Outcome run = shell(folder, "cd scene && farop convert hostile.sipp -o out.nff " + c.options);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  EXPECT_EQ(run.status, 1) << run.err;
+  EXPECT_EQ(count(run.err, "error:"), 1) << run.err;
+  EXPECT_TRUE(std::regex_search(run.err, std::regex(c.message, std::regex::extended))) << run.err;
+  EXPECT_EQ(run.err.find("outside\n"), std::string::npos) << run.err;
+  EXPECT_EQ(files_below(folder.path()), before);
+  std::smatch limit;
+  const bool timed = std::regex_search(c.options, limit, std::regex("--script-time ([0-9]+)"));
+  EXPECT_LT(seconds, (timed ? std::stod(limit[1]) : 20) + k_patience);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, HostileScripts, testing::ValuesIn(hostile_cases()), [](const auto& test) {
+  return std::regex_replace(test.param.name, std::regex("-"), "_");
+});
+
+TEST(HostileScripts, AreManyAndNoneIsForgotten) {
+  std::set<std::string> listed, there;
+  for (const HostileCase& c : hostile_cases()) listed.insert(c.name);
+  for (const auto& entry : fs::directory_iterator(k_source / "tests/sipp/hostile")) {
+    if (entry.path().extension() == ".sipp") there.insert(entry.path().stem().string());
+  }
+  EXPECT_EQ(listed, there);
+  EXPECT_GE(listed.size(), 25u);
+}
+
+TEST(HostileScripts, LeaveNoProcessBehind) {
+  const TemporaryFolder folder;
+  write_file(folder / "loop.sipp", "while {1} {}\n");
+  // The one that waits is ended from outside; its script must go with it.
+  const Outcome run = shell(folder,
+                            "farop info loop.sipp --script-time 100 & parent=$!; sleep 0.5; "
+                            "child=$(cat /proc/$parent/task/$parent/children); kill -9 $parent; sleep 0.5; "
+                            "test -n \"$child\" && ! grep -qs 'State:.[RSD]' /proc/$child/status");
+  EXPECT_EQ(run.status, 0) << run.err;
+}
+
+// ---- errors ----
+
+TEST(ScriptErrors, NameFileLineColumnFoundExpectedAndRemedy) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "parts");
+  write_file(folder / "parts/leg.tcl",
+             "proc leg {size} {\n  set s 1\n  SippCylinder $size thick 8 $::shader\n}\n");
+  write_file(folder / "robot.sipp",
+             "source parts/leg.tcl\nset shader [SippShaderBasic 0 0 1 {1 1 1}]\nforeach side {left right} {\n"
+             "  leg 2\n}\n");
+  const Outcome run = shell(folder, "farop info robot.sipp");
+  EXPECT_EQ(run.status, 1);
+  EXPECT_EQ(
+      run.err,
+      "parts/leg.tcl:3:22: error: SippCylinder: 'thick' found for the length, expected a finite number\n"
+      "     3 |   SippCylinder $size thick 8 $::shader\n"
+      "       |                      ^~~~~\n"
+      "  hint: usage: SippCylinder radius length res shader ?texture?; called from robot.sipp:4\n");
+}
+
+TEST(ScriptErrors, OfTclItselfAreTracedIntoProcedures) {
+  const TemporaryFolder folder;
+  write_file(folder / "a.sipp",
+             "proc half {x} {\n  set y 1\n  loop i 0 2 {\n    set z [expr {$x / 0}]\n  }\n}\n\nhalf 3\n");
+  const Outcome run = shell(folder, "farop info a.sipp");
+  EXPECT_EQ(run.status, 1);
+  EXPECT_NE(run.err.find("a.sipp:4:"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("divide by zero, in 'expr {$x / 0}'"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("called from a.sipp:8"), std::string::npos) << run.err;
+}
+
+TEST(ScriptErrors, SuggestCommands) {
+  const TemporaryFolder folder;
+  write_file(folder / "a.sipp", "set s [SippShaderFong 0 1 0 1 {1 1 1}]\n");
+  const Outcome run = shell(folder, "farop info a.sipp");
+  EXPECT_NE(run.err.find("did you mean 'SippShaderPhong'?"), std::string::npos) << run.err;
+}
+
+TEST(ScriptErrors, OnTheCommandLine) {
+  const TemporaryFolder folder;
+  write_file(folder / "a.sipp", "SippRender [SippPixMapCreate] 10 10\n");
+  for (const std::string define : {"frame", "2x=1", "a(b)=1", "=1"}) {
+    const Outcome run = shell(folder, "farop info a.sipp --define '" + define + "'");
+    EXPECT_EQ(run.status, 2) << define;
+    EXPECT_NE(run.err.find("expected NAME=VALUE"), std::string::npos) << run.err;
+  }
+  EXPECT_EQ(shell(folder, "farop info a.sipp --script-time 0").status, 2);
+  EXPECT_EQ(shell(folder, "farop info none.sipp").status, 1);
+  EXPECT_EQ(shell(folder, "cp a.sipp a.txt; farop info a.txt").status, 2);
+  EXPECT_EQ(shell(folder, "farop info a.txt --format sipp").status, 0);
+  EXPECT_EQ(shell(folder, "farop info - --format sipp < a.sipp").status, 0);
+}
+
+// ---- what a script decides ----
+
+TEST(ScriptScene, SizeModeAndSamplesAreDefaultsThatOptionsOverride) {
+  const TemporaryFolder folder;
+  write_file(folder / "a.sipp",
+             "SippObjectAddSubobj WORLD [SippSphere 1 20 [SippShaderBasic .2 .5 .3 {1 0 0}]]\n"
+             "SippLightSourceCreate {1 1 1} {1 1 1}\nSippRender [SippPixMapCreate] 64 48 PHONG 2\n");
+  must(folder,
+       "farop render a.sipp -o script.ppm; farop render a.sipp -o given.ppm --mode phong --samples 2 "
+       "--resolution 64x48; farop render a.sipp -o other.ppm --mode flat --samples 1");
+  EXPECT_EQ(read_file(folder / "script.ppm"), read_file(folder / "given.ppm"));
+  EXPECT_NE(read_file(folder / "script.ppm"), read_file(folder / "other.ppm"));
+  EXPECT_TRUE(read_file(folder / "script.ppm").starts_with("P6\n64 48\n255\n"));
+}
+
+TEST(ScriptScene, DefinesReachTheScriptBeforeItStarts) {
+  const TemporaryFolder folder;
+  write_file(folder / "a.sipp", "puts \"frame $frame of $name\"\nSippRender [SippPixMapCreate] $frame 10\n");
+  const Outcome run =
+      must(folder, "farop info a.sipp --define frame=12 --define 'name=[exec ls] $x' --verbose");
+  EXPECT_NE(run.err.find("script: frame 12 of [exec ls] $x"), std::string::npos) << run.err;
+  EXPECT_NE(run.out.find("resolution  12 x 10"), std::string::npos) << run.out;
+}
+
+TEST(ScriptScene, CaptureChoosesTheRendering) {
+  const TemporaryFolder folder;
+  write_file(folder / "a.sipp",
+             "loop i 1 4 {\n  SippObjectMove WORLD {1 0 0}\n  SippRender [SippPBMOpen out.ppm w] [expr {10 * "
+             "$i}] 10\n}\n");
+  EXPECT_NE(must(folder, "farop info a.sipp").out.find("resolution  10 x 10"), std::string::npos);
+  EXPECT_NE(must(folder, "farop info a.sipp --capture 3").out.find("resolution  30 x 10"), std::string::npos);
+  const Outcome run = shell(folder, "farop info a.sipp --capture 4");
+  EXPECT_EQ(run.status, 1);
+  EXPECT_NE(run.err.find("asks for 3 renderings, expected at least 4"), std::string::npos) << run.err;
+  EXPECT_FALSE(fs::exists(folder / "out.ppm"));
+}
+
+TEST(ScriptScene, WithoutARenderingIsTakenAtItsEndWithANote) {
+  const TemporaryFolder folder;
+  write_file(folder / "a.sipp",
+             "SippObjectAddSubobj WORLD [SippCube 1 [SippShaderBasic .2 .5 .3 {1 0 0}]]\n");
+  const Outcome run = must(folder, "farop info a.sipp");
+  EXPECT_NE(run.err.find("a.sipp: note: the script asks for no rendering"), std::string::npos) << run.err;
+  EXPECT_NE(run.out.find("polygons      6\n"), std::string::npos) << run.out;
+}
+
+TEST(ScriptScene, MergesWithNff) {
+  const TemporaryFolder folder;
+  must(folder, "farop spd hollow-cube -o cube.nff");
+  write_file(folder / "a.sipp",
+             "SippObjectAddSubobj WORLD [SippCube 1 [SippShaderBasic .2 .5 .3 {1 0 0}]]\n"
+             "SippBackground {0 0 1}\nSippRender [SippPixMapCreate] 64 48\n");
+  const Outcome last = must(folder, "farop info cube.nff a.sipp");
+  EXPECT_NE(last.out.find("polygons      134\n"), std::string::npos) << last.out;
+  EXPECT_NE(last.out.find("background  0 0 1"), std::string::npos) << last.out;
+  EXPECT_NE(last.err.find("overrides"), std::string::npos) << last.err;
+  const Outcome first = must(folder, "farop info a.sipp cube.nff");
+  EXPECT_EQ(first.out.find("background  0 0 1"), std::string::npos) << first.out;
+}
+
+}  // namespace
+}  // namespace farop::test
