@@ -70,6 +70,13 @@ ShapeLook Script::look(Tcl_Obj* shader_word, Words rest) {
   return look;
 }
 
+ScriptError Script::too_many(const Error& error) const {
+  const std::string used = polygons_made_ == 0 ? ""
+                                               : fmt::format(" (of {}, {} are made already)",
+                                                             options_.limits.polygons, polygons_made_);
+  return ScriptError(error.what() + used, {}, "fewer polygons, or --script-polygons N");
+}
+
 Tcl_Obj* Script::new_shape(const char* noun, const std::shared_ptr<Object>& object) {
   if (object == nullptr) throw ScriptError(fmt::format("no {} of this size can be made", noun));
   count_polygons(tree_size(*object).polygons);
@@ -86,7 +93,7 @@ void Script::add_shape_commands() {
       try {
         object = make(w, l);
       } catch (const Error& error) {
-        throw ScriptError(error.what(), {}, "fewer polygons, or --script-polygons N");
+        throw too_many(error);
       }
       return new_shape(noun, object);
     });
@@ -149,7 +156,7 @@ void Script::add_bezier_commands() {
     try {
       return new_shape("surface", bezier(description, res, l));
     } catch (const Error& error) {
-      throw ScriptError(error.what(), {}, "fewer polygons, or --script-polygons N");
+      throw too_many(error);
     }
   };
   add("SippBezierPatch", "res vertexlist patchlist shader ?texture?", 4, 5, [this, make](Words w) {

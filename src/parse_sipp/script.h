@@ -12,6 +12,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "core/error.h"
 #include "parse_sipp/parse_sipp.h"
 #include "parse_sipp/script_error_internal.h"
 #include "parse_sipp/script_shader.h"
@@ -130,6 +131,7 @@ class Script {
   std::uint64_t polygons_left() const;
   void count_polygons(std::uint64_t polygons);
   void count_objects(std::uint64_t objects);
+  ScriptError too_many(const Error& error) const;
   ShapeLook look(Tcl_Obj* shader, Words rest);
   Tcl_Obj* new_shape(const char* noun, const std::shared_ptr<Object>& object);
 

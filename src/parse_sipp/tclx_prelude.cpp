@@ -5,6 +5,9 @@ namespace farop::sipp {
 
 // Written anew from what the commands of Extended Tcl are documented to do.
 const char* const k_tclx_prelude = R"tcl(
+# Tcl defines these two in its library of scripts, which is not loaded.
+proc ::tcl::mathfunc::min {x args} {foreach a $args {if {$a < $x} {set x $a}}; return $x}
+proc ::tcl::mathfunc::max {x args} {foreach a $args {if {$a > $x} {set x $a}}; return $x}
 proc loop {variable from to args} {
   switch [llength $args] {
     1 {set step 1; set body [lindex $args 0]}
