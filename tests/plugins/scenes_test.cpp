@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every shipped rasterizer on every scene of the Standard Procedural Databases and the three solids, polygons
-// as they are and triangles: it covers the pixels that the internal rasterizer covers, all of them and no
-// other.
+// Every shipped rasterizer on every scene of the Standard Procedural Databases, the three solids and our
+// scripts, polygons as they are and triangles: it covers the pixels that the internal rasterizer covers, all
+// of them and no other.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
 
 #include "geometry/pipeline.h"
 #include "parse_nff/parse_nff.h"
+#include "parse_sipp/parse_sipp.h"
 #include "plugin/plugin_rasterizer.h"
 #include "raster/internal_rasterizer.h"
 #include "scene/merge.h"
@@ -30,7 +32,13 @@ struct NamedLibrary {
 };
 const NamedLibrary k_rasterizers[] = {FAROP_POLYGON_RASTERIZERS};
 
+const std::filesystem::path k_scripts = std::filesystem::path(FAROP_SOURCE_DIR) / "spd_scenes/sipp";
+
 Scene load(const std::string& name) {
+  if (name.starts_with("script-")) {
+    DiagnosticList messages;
+    return parse_sipp((k_scripts / (name.substr(7) + ".sipp")).string(), messages).value();
+  }
   static const std::map<std::string, int> smaller = {
       {"balls", 2}, {"rings", 2}, {"tree", 5}, {"lattice", 3}, {"shells", 1}};
   SpdRequest request;
@@ -77,6 +85,7 @@ class Scenes : public testing::TestWithParam<std::tuple<std::string, bool>> {
   void SetUp() override {
     scene_ = load(std::get<0>(GetParam()));
     options_.triangles = std::get<1>(GetParam());
+    options_.two_sided = scene_.drawing.two_sided.value_or(false);
     DiagnosticList messages;
     Viewport viewport;
     const ViewParameters::Size size = complete_resolution(scene_.view, messages);
@@ -116,6 +125,9 @@ TEST_P(Scenes, AreCoveredPixelForPixel) {
 std::vector<std::string> scene_names() {
   std::vector<std::string> names;
   for (const SpdSceneInfo& scene : spd_scenes()) names.emplace_back(scene.name);
+  for (const auto& entry : std::filesystem::directory_iterator(k_scripts)) {
+    if (entry.path().extension() == ".sipp") names.push_back("script-" + entry.path().stem().string());
+  }
   return names;
 }
 
