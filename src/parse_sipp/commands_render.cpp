@@ -101,6 +101,7 @@ Tcl_Obj* Script::render(Words words) {
   }
   const std::vector<Tcl_Obj*> outputs = list(words[0], "the list of outputs");
   std::vector<Output*> targets;
+  targets.reserve(outputs.size());
   for (Tcl_Obj* word : outputs) {
     targets.push_back(pixmaps_.contains(word)     ? &pixmaps_.at(word)
                       : rle_files_.contains(word) ? &rle_files_.at(word)

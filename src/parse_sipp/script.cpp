@@ -122,9 +122,8 @@ void Script::check_tree() const {
   }
 }
 
-void Script::remark(Severity severity, std::string message, std::string hint) {
-  remarks_.push_back(
-      interpreter_.diagnostic(severity, interpreter_.place(), std::move(message), std::move(hint)));
+void Script::remark(Severity severity, const std::string& message, const std::string& hint) {
+  remarks_.push_back(interpreter_.diagnostic(severity, interpreter_.place(), message, hint));
 }
 
 }  // namespace farop::sipp

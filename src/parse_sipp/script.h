@@ -140,7 +140,7 @@ class Script {
   void capture(const ViewParameters::Size& size, const DrawingParameters& drawing, bool sized);
   void check_tree() const;
   void reset();
-  void remark(Severity severity, std::string message, std::string hint);
+  void remark(Severity severity, const std::string& message, const std::string& hint);
 
   TclInterpreter& interpreter_;
   const SippOptions& options_;

@@ -513,8 +513,8 @@ Diagnostic TclInterpreter::failure() const {
   return diagnostic(Severity::error, p.place, p.message, p.hint, p.word);
 }
 
-Diagnostic TclInterpreter::diagnostic(Severity severity, const ScriptPlace& place, std::string message,
-                                      std::string hint, const std::string& word) const {
+Diagnostic TclInterpreter::diagnostic(Severity severity, const ScriptPlace& place, const std::string& message,
+                                      const std::string& hint, const std::string& word) const {
   Diagnostic d;
   d.severity = severity;
   d.message = printable(message, 400);
@@ -537,7 +537,7 @@ Diagnostic TclInterpreter::diagnostic(Severity severity, const ScriptPlace& plac
   const std::string_view line = text->line(place.line);
   if (line.empty()) return d;
   // Behind the name of the command, if that is on this line too.
-  const std::string_view name = first_word(message.substr(0, message.find(':')));
+  const std::string_view name = first_word(std::string_view(message).substr(0, message.find(':')));
   const std::size_t command = line.find(name);
   const std::size_t from = command == std::string_view::npos ? 0 : command;
   std::size_t at = word.empty() ? std::string_view::npos : line.find(word, from);

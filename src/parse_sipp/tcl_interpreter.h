@@ -58,8 +58,8 @@ class TclInterpreter {
   Diagnostic failure() const;
   /// Where the running command stands.
   ScriptPlace place() const;
-  Diagnostic diagnostic(Severity severity, const ScriptPlace& place, std::string message, std::string hint,
-                        const std::string& word = {}) const;
+  Diagnostic diagnostic(Severity severity, const ScriptPlace& place, const std::string& message,
+                        const std::string& hint, const std::string& word = {}) const;
 
   const ScriptFiles& files() const { return files_; }
 

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/color.h"
@@ -26,20 +27,17 @@ class TclValue {
   explicit TclValue(std::string_view text)
       : TclValue(Tcl_NewStringObj(text.data(), static_cast<int>(text.size()))) {}
   TclValue(const TclValue& other) : TclValue(other.object_) {}
-  TclValue& operator=(const TclValue& other) {
-    if (other.object_ != nullptr) Tcl_IncrRefCount(other.object_);
-    release();
-    object_ = other.object_;
+  TclValue& operator=(TclValue other) noexcept {
+    std::swap(object_, other.object_);
     return *this;
   }
-  ~TclValue() { release(); }
+  ~TclValue() {
+    if (object_ != nullptr) Tcl_DecrRefCount(object_);
+  }
 
   Tcl_Obj* get() const { return object_; }
 
  private:
-  void release() {
-    if (object_ != nullptr) Tcl_DecrRefCount(object_);
-  }
   Tcl_Obj* object_ = nullptr;
 };
 

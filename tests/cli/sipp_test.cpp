@@ -44,6 +44,10 @@ struct HostileCase {
   std::string name, options, message;
 };
 
+void PrintTo(const HostileCase& c, std::ostream* out) {
+  *out << c.name;
+}
+
 std::vector<HostileCase> hostile_cases() {
   std::vector<HostileCase> cases;
   std::ifstream manifest(k_source / "tests/sipp/hostile/manifest.txt");
