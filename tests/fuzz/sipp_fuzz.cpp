@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Any bytes, run as a script under small limits, end in a scene or in exactly one error. In this process, so that
-// every crash is seen; Tcl's own aborts for lack of memory are no finding (the limit of libFuzzer ends them).
+// Any bytes, run as a script under small limits, end in a scene or in exactly one error. In this process, so
+// that every crash is seen; Tcl's own aborts for lack of memory are no finding (the limit of libFuzzer ends
+// them).
 #include <cstdio>
 #include <cstdlib>
 
