@@ -145,9 +145,12 @@ void add_light_option(CLI::App& command, SceneOptions& options) {
 }
 
 void add_side_option(CLI::App& command, SceneOptions& options) {
+  // A function: bound to the variable itself, CLI11 takes it for a count and sets it to 0, so "not given" is
+  // lost.
   command
-      .add_flag("--two-sided,!--one-sided", options.two_sided,
-                "keep polygons that face away, or not [the scene's, else not]")
+      .add_flag_function(
+          "--two-sided,!--one-sided", [&options](std::int64_t count) { options.two_sided = count > 0; },
+          "keep polygons that face away, or not [the scene's, else not]")
       ->group("Geometry");
 }
 

@@ -192,6 +192,25 @@ TEST(ScriptScene, SizeModeAndSamplesAreDefaultsThatOptionsOverride) {
   EXPECT_TRUE(read_file(folder / "script.ppm").starts_with("P6\n64 48\n255\n"));
 }
 
+TEST(ScriptScene, ShowsBackFacesUnlessAnOptionSaysOtherwise) {
+  const TemporaryFolder folder;
+  const std::string cube =
+      "SippObjectAddSubobj WORLD [SippCube 1 [SippShaderBasic .2 .5 .3 {1 0 0}]]\n"
+      "SippRender [SippPixMapCreate] 32 32\n";
+  write_file(folder / "off.sipp", cube);
+  write_file(folder / "on.sipp", "SippShowBackFaces true\n" + cube);
+  const auto rendered = [&](const std::string& arguments) {
+    const std::string err = must(folder, "farop render " + arguments + " -o a.ppm").err;
+    std::smatch m;
+    EXPECT_TRUE(std::regex_search(err, m, std::regex("([0-9]+) rendered"))) << err;
+    return m.empty() ? std::string() : m[1].str();
+  };
+  EXPECT_EQ(rendered("off.sipp"), "1");
+  EXPECT_EQ(rendered("on.sipp"), "6");
+  EXPECT_EQ(rendered("off.sipp --two-sided"), "6");
+  EXPECT_EQ(rendered("on.sipp --one-sided"), "1");
+}
+
 TEST(ScriptScene, DefinesReachTheScriptBeforeItStarts) {
   const TemporaryFolder folder;
   write_file(folder / "a.sipp", "puts \"frame $frame of $name\"\nSippRender [SippPixMapCreate] $frame 10\n");

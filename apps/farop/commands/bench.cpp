@@ -157,7 +157,7 @@ std::unique_ptr<LoadedScene> load(const Subject& subject, const BenchOptions& op
   view.resolution = options.resolution;
   SceneOptions scene;
   scene.triangles = options.triangles;
-  scene.two_sided = options.two_sided;
+  if (options.two_sided) scene.two_sided = true;
   const LoadedView camera = *finish_loading(loaded->session, view, scene, Viewport{}, 1, true);
   loaded->geometry = geometry_options(loaded->session, scene, false);
   prepare_drawing(loaded->session, camera, loaded->geometry, 1);
