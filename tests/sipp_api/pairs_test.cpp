@@ -2,18 +2,51 @@
 // The same scene as a C program and as a script: the same tree, the same picture.
 #include "pairs/pairs.h"
 
+#include <dlfcn.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "parse_sipp/parse_sipp.h"
 #include "sipp_api/snapshot_internal.h"
 #include "support/shell.h"
+
+namespace farop {
+namespace {
+
+/// The world of a program that is running, as often as it asked for an image, and what it asked for.
+struct Frame {
+  Scene scene;
+  int width, height, mode, samples;
+};
+std::vector<Frame>* frames = nullptr;
+
+void take_frame(int width, int height, int mode, int samples) {
+  ASSERT_NE(frames, nullptr);
+  frames->push_back({sipp_api::snapshot({true, false, true}), width, height, mode, samples});
+}
+
+}  // namespace
+}  // namespace farop
+
+// What the programs call instead of SIPP's functions (pairs/twin.h).
+extern "C" {
+SIPP_PUBLIC void twin_render_file(int width, int height, FILE* /*file*/, int mode, int samples) {
+  farop::take_frame(width, height, mode, samples);
+}
+SIPP_PUBLIC void twin_render_func(int width, int height, void (* /*func*/)(), void* /*data*/, int mode,
+                                  int samples) {
+  farop::take_frame(width, height, mode, samples);
+}
+}
 
 namespace farop {
 namespace {
@@ -28,13 +61,27 @@ const Pair k_pairs[] = {{"shapes", build_shapes, PHONG},
                         {"shaders", build_shaders, PHONG},
                         {"polygons", build_polygons, FLAT}};
 
-std::string script_of(const Pair& pair) {
-  return std::string(FAROP_SIPP_PAIRS) + "/" + pair.name + ".sipp";
+/// Programs of the folder beside that a script can say: all but those with functions of their own (holes,
+/// scroll).
+const char* const k_programs[] = {"torus",  "cones",   "ellipsoid", "prisms", "chain", "lattice",
+                                  "column", "strauss", "planet",    "wood",   "grid",  "walk"};
+
+std::string script_of(const std::string& name) {
+  return std::string(FAROP_SIPP_PAIRS) + "/" + name + ".sipp";
 }
 
 void forget_names(Object& object) {
   object.name.clear();
   for (const auto& child : object.children) forget_names(*child);
+}
+
+/// SIPP asks for a surface's shader when it draws, so the library keeps all texture coordinates; a script's
+/// shaders are final, and parse_sipp drops the coordinates that none of them reads. So do we.
+void drop_unread_textures(Object& object) {
+  for (const auto& surface : object.surfaces) {
+    if (!surface->shader->wants_texture()) surface->textures.clear();
+  }
+  for (const auto& child : object.children) drop_unread_textures(*child);
 }
 
 /// Equal node by node; says where not.
@@ -45,13 +92,13 @@ void expect_same(const Object& a, const Object& b, const std::string& where) {
     const farop::Surface& s = *a.surfaces[i];
     const farop::Surface& t = *b.surfaces[i];
     const std::string surface = where + " surface " + std::to_string(i);
-    EXPECT_EQ(s.positions, t.positions) << surface;
-    EXPECT_EQ(s.textures, t.textures) << surface;
-    EXPECT_EQ(s.averaged_normals, t.averaged_normals) << surface;
-    EXPECT_EQ(s.polygons, t.polygons) << surface;
-    EXPECT_EQ(s.material, t.material) << surface;
     ASSERT_TRUE(s.shader && t.shader) << surface;
     EXPECT_EQ(s.shader->describe(), t.shader->describe()) << surface;
+    EXPECT_EQ(s.material, t.material) << surface;
+    EXPECT_EQ(s.positions, t.positions) << surface;
+    EXPECT_EQ(s.averaged_normals, t.averaged_normals) << surface;
+    EXPECT_EQ(s.textures, t.textures) << surface;
+    EXPECT_EQ(s.polygons, t.polygons) << surface;
   }
   ASSERT_EQ(a.children.size(), b.children.size()) << where;
   for (std::size_t i = 0; i < a.children.size(); ++i) {
@@ -65,28 +112,113 @@ void count_places(const Object& object, std::map<const Object*, int>& places) {
   for (const auto& child : object.children) count_places(*child, places);
 }
 
+void expect_same_scene(Scene& program, Scene& script, const std::string& name) {
+  forget_names(program.root);
+  forget_names(script.root);
+  drop_unread_textures(program.root);
+  expect_same(program.root, script.root, name);
+  EXPECT_EQ(program.lights, script.lights) << name;
+  std::map<const Object*, int> in_program, in_script;
+  count_places(program.root, in_program);
+  count_places(script.root, in_script);
+  EXPECT_EQ(in_program.size(), in_script.size()) << name << ": instances are shared alike";
+  EXPECT_EQ(program.drawing.two_sided, script.drawing.two_sided) << name;
+  // The size of the picture comes with the render call.
+  ASSERT_TRUE(script.view.resolution) << name;
+  program.view.resolution = script.view.resolution;
+  EXPECT_EQ(program.view, script.view) << name;
+  EXPECT_TRUE(same_content(program, script)) << name;
+}
+
+std::optional<Scene> read_script(const std::string& name, int rendering = 1) {
+  DiagnosticList messages;
+  SippOptions options;
+  options.capture = rendering;
+  std::optional<Scene> scene = parse_sipp(script_of(name), messages, options);
+  EXPECT_TRUE(scene) << name << (messages.items.empty() ? "" : to_text(messages.items.back()));
+  return scene;
+}
+
 TEST(SippPairs, HaveTheSameTree) {
   for (const Pair& pair : k_pairs) {
     pair.build();
     Scene program = sipp_api::snapshot({true, false, true});
-    DiagnosticList messages;
-    std::optional<Scene> script = parse_sipp(script_of(pair), messages);
-    ASSERT_TRUE(script) << pair.name << (messages.items.empty() ? "" : to_text(messages.items.back()));
-    forget_names(program.root);
-    forget_names(script->root);
-    expect_same(program.root, script->root, pair.name);
-    EXPECT_EQ(program.lights, script->lights) << pair.name;
-    std::map<const Object*, int> in_program, in_script;
-    count_places(program.root, in_program);
-    count_places(script->root, in_script);
-    EXPECT_EQ(in_program.size(), in_script.size()) << pair.name << ": instances are shared alike";
-    // The size of the picture, mode and oversampling come with the render call.
+    std::optional<Scene> script = read_script(pair.name);
+    ASSERT_TRUE(script);
     EXPECT_EQ(script->view.resolution, (ViewParameters::Size{200, 150}));
-    program.view.resolution = script->view.resolution;
-    EXPECT_EQ(program.view, script->view) << pair.name;
-    program.drawing.mode = script->drawing.mode;
-    program.drawing.samples = script->drawing.samples;
-    EXPECT_TRUE(same_content(program, *script)) << pair.name;
+    expect_same_scene(program, *script, pair.name);
+  }
+}
+
+TEST(SippPairs, TexturesAreAmongWhatIsCompared) {
+  build_shapes();
+  Scene scene = sipp_api::snapshot({true, false, true});
+  drop_unread_textures(scene.root);
+  EXPECT_FALSE(scene.root.children[0]->children[0]->surfaces[0]->textures.empty());
+  build_figure();
+  scene = sipp_api::snapshot({true, false, true});
+  EXPECT_FALSE(scene.root.children[0]->children[0]->surfaces[0]->textures.empty());
+  drop_unread_textures(scene.root);
+  EXPECT_TRUE(scene.root.children[0]->children[0]->surfaces[0]->textures.empty());
+}
+
+/// Runs a program of the folder beside, whose render calls fill the result. Its files go into `folder`.
+std::vector<Frame> run_program(const test::TemporaryFolder& folder, const std::string& name) {
+  std::vector<Frame> seen;
+  void* const library =
+      ::dlopen((std::string(FAROP_SIPP_TWINS) + "/" + name + ".so").c_str(), RTLD_NOW | RTLD_LOCAL);
+  EXPECT_NE(library, nullptr) << ::dlerror();
+  if (library == nullptr) return seen;
+  const auto program = reinterpret_cast<int (*)(int, char**)>(::dlsym(library, "twin_main"));
+  std::vector<std::string> words{name, "-s", "96"};
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path());
+  optind = 1;
+  frames = &seen;
+  program(static_cast<int>(arguments.size()), arguments.data());
+  frames = nullptr;
+  std::filesystem::current_path(before);
+  farop_sipp_capture(nullptr);
+  // Not closed: the world still points into it, until the next sipp_init().
+  return seen;
+}
+
+TEST(SippPairs, ProgramsHaveTheTreesOfTheirScripts) {
+  const test::TemporaryFolder folder;
+  for (const std::string name : k_programs) {
+    std::vector<Frame> program = run_program(folder, name);
+    ASSERT_EQ(program.size(), name == "walk" ? 6u : 1u) << name;
+    for (std::size_t i = 0; i < program.size(); ++i) {
+      std::optional<Scene> script = read_script(name, static_cast<int>(i) + 1);
+      ASSERT_TRUE(script);
+      expect_same_scene(program[i].scene, *script, name);
+      EXPECT_EQ(script->view.resolution, (ViewParameters::Size{program[i].width, program[i].height})) << name;
+      EXPECT_EQ(program[i].mode, PHONG) << name;
+      EXPECT_EQ(script->drawing.mode, DrawMode::phong) << name;
+      EXPECT_EQ(script->drawing.samples, program[i].samples) << name;
+    }
+  }
+}
+
+/// Their colours alone: the headers differ by a comment.
+std::string pixels(const std::string& path, std::size_t count) {
+  const std::string bytes = test::read_file(path);
+  return bytes.size() < 3 * count ? bytes : bytes.substr(bytes.size() - 3 * count);
+}
+
+TEST(SippPairs, ProgramsDrawWhatTheirScriptsDraw) {
+  const test::TemporaryFolder folder;
+  for (const std::string name : k_programs) {
+    const bool walks = name == "walk";  // its second image is a scene
+    const test::Outcome outcome = test::shell(
+        folder, "ASAN_OPTIONS=detect_leaks=0 " FAROP_SIPP_PROGRAMS "/" + name + "_gnu89 -s 96 && " +
+                    "farop render -q " + script_of(name) + " -o script.ppm" + (walks ? " --capture 3" : ""));
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const std::string program = pixels(folder / (walks ? "walk2.ppm" : name + ".ppm"), 96 * 96);
+    EXPECT_EQ(program.size(), 3u * 96 * 96) << name;
+    EXPECT_TRUE(program == pixels(folder / "script.ppm", 96 * 96)) << name;
   }
 }
 
@@ -100,14 +232,11 @@ TEST(SippPairs, HaveTheSamePicture) {
     render_image_file(200, 150, file, pair.mode, 1);
     std::fclose(file);
     const std::string script = folder / (std::string(pair.name) + ".ppm");
-    const test::Outcome outcome = test::shell(folder, "farop render " + script_of(pair) + " -o " + script);
+    const test::Outcome outcome =
+        test::shell(folder, "farop render " + script_of(pair.name) + " -o " + script);
     ASSERT_EQ(outcome.status, 0) << outcome.err;
-    const auto pixels = [](const std::string& path) {
-      const std::string bytes = test::read_file(path);
-      return bytes.size() < 3 * 200 * 150 ? bytes : bytes.substr(bytes.size() - 3 * 200 * 150);
-    };
-    EXPECT_EQ(pixels(program).size(), 3u * 200 * 150) << pair.name;
-    EXPECT_EQ(pixels(program) == pixels(script), true) << pair.name;
+    EXPECT_EQ(pixels(program, 200 * 150).size(), 3u * 200 * 150) << pair.name;
+    EXPECT_TRUE(pixels(program, 200 * 150) == pixels(script, 200 * 150)) << pair.name;
   }
 }
 

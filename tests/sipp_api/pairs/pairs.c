@@ -20,45 +20,46 @@ static void place(Object* object, double x, double y, double z) {
 
 /* Every primitive, with every texture mapping somewhere. */
 void build_shapes(void) {
-  static Surf_desc plain;
+  static Granite_desc plain;
   static Vector outline[5], net[16], profile[4];
   static int patch[16], curve[4];
-  Shader* basic = (Shader*)basic_shader;
+  Shader* granite = (Shader*)granite_shader; /* reads texture coordinates */
   int i;
   sipp_init();
-  plain.ambient = 0.5, plain.specular = 0.6, plain.c3 = 0.2;
-  plain.color = color(0.6, 0.3, 0.5);
+  plain.ambient = 0.5, plain.specular = 0.6, plain.c3 = 0.2, plain.scale = 2.0;
+  plain.col1 = color(0.6, 0.3, 0.5);
+  plain.col2 = color(0.2, 0.3, 0.5);
   plain.opacity = opaque;
-  place(sipp_torus(1.0, 0.4, 40, 15, &plain, basic, WORLD), -6.0, 0.0, 0.0);
-  place(sipp_sphere(1.0, 9, &plain, basic, SPHERICAL), -3.0, 0.0, 0.0);
-  place(sipp_ellipsoid(1.0, 2.0, 3.0, 15, &plain, basic, CYLINDRICAL), 0.0, 0.0, 0.0);
-  place(sipp_cone(1.0, 0.0, 4.0, 20, &plain, basic, NATURAL), 3.0, 0.0, 0.0);
-  place(sipp_cone(0.5, 1.5, 2.0, 7, &plain, basic, SPHERICAL), 6.0, 0.0, 0.0);
-  place(sipp_cylinder(1.0, 3.0, 20, &plain, basic, WORLD), -6.0, 5.0, 0.0);
+  place(sipp_torus(1.0, 0.4, 40, 15, &plain, granite, WORLD), -6.0, 0.0, 0.0);
+  place(sipp_sphere(1.0, 9, &plain, granite, SPHERICAL), -3.0, 0.0, 0.0);
+  place(sipp_ellipsoid(1.0, 2.0, 3.0, 15, &plain, granite, CYLINDRICAL), 0.0, 0.0, 0.0);
+  place(sipp_cone(1.0, 0.0, 4.0, 20, &plain, granite, NATURAL), 3.0, 0.0, 0.0);
+  place(sipp_cone(0.5, 1.5, 2.0, 7, &plain, granite, SPHERICAL), 6.0, 0.0, 0.0);
+  place(sipp_cylinder(1.0, 3.0, 20, &plain, granite, WORLD), -6.0, 5.0, 0.0);
   MakeVector(outline[0], 0.5, -1.0, 0.0);
   MakeVector(outline[1], -1.0, 0.5, 0.0);
   MakeVector(outline[2], 1.0, 1.0, 0.0);
   MakeVector(outline[3], -1.0, 2.0, 0.0);
   MakeVector(outline[4], -2.0, 0.5, 0.0);
-  place(sipp_prism(5, outline, 5.0, &plain, basic, NATURAL), -3.0, 5.0, 0.0);
-  place(sipp_block(1.0, 2.0, 3.0, &plain, basic, CYLINDRICAL), 0.0, 5.0, 0.0);
-  place(sipp_cube(1.5, &plain, basic, WORLD), 3.0, 5.0, 0.0);
-  place(sipp_teapot(3, &plain, basic, WORLD), 6.0, 5.0, 0.0);
-  place(sipp_teapot_body(2, &plain, basic, WORLD), -6.0, -5.0, 0.0);
-  place(sipp_teapot_lid(2, &plain, basic, NATURAL), -6.0, -5.0, 0.0);
-  place(sipp_teapot_spout(2, &plain, basic, NATURAL), -6.0, -5.0, 0.0);
-  place(sipp_teapot_handle(2, &plain, basic, WORLD), -6.0, -5.0, 0.0);
+  place(sipp_prism(5, outline, 5.0, &plain, granite, NATURAL), -3.0, 5.0, 0.0);
+  place(sipp_block(1.0, 2.0, 3.0, &plain, granite, CYLINDRICAL), 0.0, 5.0, 0.0);
+  place(sipp_cube(1.5, &plain, granite, WORLD), 3.0, 5.0, 0.0);
+  place(sipp_teapot(3, &plain, granite, WORLD), 6.0, 5.0, 0.0);
+  place(sipp_teapot_body(2, &plain, granite, WORLD), -6.0, -5.0, 0.0);
+  place(sipp_teapot_lid(2, &plain, granite, NATURAL), -6.0, -5.0, 0.0);
+  place(sipp_teapot_spout(2, &plain, granite, NATURAL), -6.0, -5.0, 0.0);
+  place(sipp_teapot_handle(2, &plain, granite, WORLD), -6.0, -5.0, 0.0);
   for (i = 0; i < 16; i++) {
     MakeVector(net[i], i % 4, i / 4, (i % 4) * (i / 4) * 0.25);
     patch[i] = i;
   }
-  place(sipp_bezier_patches(16, net, 1, patch, 4, &plain, basic, NATURAL), -3.0, -5.0, 0.0);
+  place(sipp_bezier_patches(16, net, 1, patch, 4, &plain, granite, NATURAL), -3.0, -5.0, 0.0);
   MakeVector(profile[0], 1.0, 0.0, 0.0);
   MakeVector(profile[1], 2.0, 0.0, 1.0);
   MakeVector(profile[2], 0.5, 0.0, 2.0);
   MakeVector(profile[3], 1.0, 0.0, 3.0);
   for (i = 0; i < 4; i++) curve[i] = i;
-  place(sipp_bezier_rotcurve(4, profile, 1, curve, 4, &plain, basic, WORLD), 3.0, -5.0, 0.0);
+  place(sipp_bezier_rotcurve(4, profile, 1, curve, 4, &plain, granite, WORLD), 3.0, -5.0, 0.0);
   lightsource_create(1.0, 1.0, 1.0, 0.9, 0.9, 0.9, LIGHT_DIRECTION);
   camera_params(sipp_camera, 5.0, -30.0, 16.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.3);
 }
@@ -178,6 +179,7 @@ void build_shaders(void) {
  */
 void build_polygons(void) {
   static Surf_desc plain;
+  static Marble_desc veined;
   Object* object;
   Surface* surface;
   int i;
@@ -185,6 +187,10 @@ void build_polygons(void) {
   plain.ambient = 0.5, plain.specular = 0.6, plain.c3 = 0.2;
   plain.color = color(0.6, 0.3, 0.5);
   plain.opacity = opaque;
+  veined.ambient = 0.5, veined.specular = 0.6, veined.c3 = 0.2, veined.scale = 9.0;
+  veined.base = color(0.6, 0.3, 0.5);
+  veined.strip = color(0.9, 0.9, 0.2);
+  veined.opacity = opaque;
   object = object_create();
   for (i = 0; i < 10; i++) {
     vertex_push(0.5 * i, 0.0, 0.1 * (i % 2));
@@ -207,7 +213,7 @@ void build_polygons(void) {
   vertex_tx_n_push(5.0, 2.0, 0.0, 1.0, 0.0, 0.0, 0.0, -1.0, 0.25);
   vertex_tx_n_push(4.5, 2.0, 1.0, 0.5, 1.0, 0.0, 0.0, -1.0, 0.0);
   polygon_push();
-  surface = surface_create(&plain, (Shader*)basic_shader);
+  surface = surface_create(&veined, (Shader*)marble_shader);
   object_add_surface(object, surface);
   object_add_surface(object, surface);
   object_add_subobj(sipp_world, object);
