@@ -28,4 +28,6 @@ install(FILES ${PROJECT_BINARY_DIR}/farop-config.cmake ${PROJECT_BINARY_DIR}/far
               ${PROJECT_SOURCE_DIR}/plugins/exports.map
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/farop)
 install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
-install(DIRECTORY spd_scenes/ DESTINATION ${CMAKE_INSTALL_DATADIR}/farop/scenes FILES_MATCHING PATTERN "*.nff" PATTERN "*.sipp")
+# Scripts with the files that they source.
+install(DIRECTORY spd_scenes/ DESTINATION ${CMAKE_INSTALL_DATADIR}/farop/scenes
+        FILES_MATCHING PATTERN "*.nff" PATTERN "*.sipp" PATTERN "*.tcl")

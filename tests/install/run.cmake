@@ -11,7 +11,9 @@ file(REMOVE_RECURSE ${WORK})
 must(${CMAKE_COMMAND} --install ${FAROP_BUILD} --prefix ${WORK}/prefix)
 foreach(file bin/farop share/man/man1/farop.1 share/bash-completion/completions/farop share/zsh/site-functions/_farop
              share/fish/vendor_completions.d/farop.fish share/farop/scenes/hollow-cube.nff include/farop/rasterizer.h
-             share/farop/templates/Makefile share/farop/rasterizers/dots.c include/farop-sipp/sipp.h)
+             share/farop/scenes/sipp/grove.sipp share/farop/scenes/sipp/tree.tcl
+             share/farop/templates/Makefile share/farop/rasterizers/dots.c include/farop-sipp/sipp.h
+             include/farop/parse_sipp/parse_sipp.h)
   if(NOT EXISTS ${WORK}/prefix/${file})
     message(FATAL_ERROR "not installed: ${file}")
   endif()
@@ -23,6 +25,13 @@ must(${WORK}/build/consumer ${WORK}/prefix/share/farop/scenes/hollow-cube.nff)
 if(NOT must_output STREQUAL "128 polygons\n")
   message(FATAL_ERROR "the consumer printed: ${must_output}")
 endif()
+# A script that sources a file beside it, in the consumer, which needs Tcl, and in the program.
+set(grove ${WORK}/prefix/share/farop/scenes/sipp/grove.sipp)
+must(${WORK}/build/consumer ${grove})
+if(NOT must_output STREQUAL "93660 polygons\n")
+  message(FATAL_ERROR "the consumer printed: ${must_output}")
+endif()
+must(${WORK}/prefix/bin/farop render ${grove} -o ${WORK}/grove.png --resolution 160x120)
 # PNG: the picture library is found in the installation.
 must(${WORK}/prefix/bin/farop render ${WORK}/prefix/share/farop/scenes/hollow-cube.nff -o ${WORK}/cube.png)
 must(${WORK}/prefix/bin/farop info ${WORK}/prefix/share/farop/scenes/solid-torus.nff)
