@@ -324,6 +324,36 @@ TEST(OurScenes, ConvertToNffPolygonForPolygon) {
   }
 }
 
+TEST(OurScenes, ConvertToTriangles) {
+  const TemporaryFolder folder;
+  for (const std::string name : {"walk", "relief"}) {  // relief has a concave star
+    const std::string path = "'" + (k_source / "spd_scenes/sipp" / (name + ".sipp")).string() + "'";
+    must(folder, "farop convert " + path + " -q -o all.nff && farop convert " + path + " -q --triangles -o " +
+                     "three.nff");
+    const auto corner_counts = [&](const char* file) {
+      std::vector<int> counts;
+      std::istringstream lines(read_file(folder / file));
+      for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with("p ") || line.starts_with("pp ")) {
+          counts.push_back(std::stoi(line.substr(line.find(' '))));
+        }
+      }
+      return counts;
+    };
+    int triangles = 0;
+    for (const int n : corner_counts("all.nff")) triangles += n - 2;
+    EXPECT_GT(triangles, 1000);
+    EXPECT_EQ(corner_counts("three.nff"), std::vector<int>(static_cast<std::size_t>(triangles), 3)) << name;
+    // The same places are covered; where a quadrilateral is not quite flat its silhouette may differ.
+    must(folder,
+         "for f in all three; do sed '/^f /s/.*/f 1 1 1 0 0 1 0 1/; /^b /s/.*/b 0 0 0/' $f.nff > "
+         "white-$f.nff; "
+         "farop render white-$f.nff -q --mode flat --resolution 160x160 -o $f.ppm; done");
+    const Outcome same = shell(folder, "farop compare all.ppm three.ppm --fail 0.004 --failpercent 0.05");
+    EXPECT_EQ(same.status, 0) << name << same.out;
+  }
+}
+
 TEST(Instances, ShareTheirMemory) {
   const TemporaryFolder folder;
   const std::string script =
