@@ -18,6 +18,8 @@ struct Problem {
   Drawing drawing;  ///< as given
   std::vector<WrongSample> wrong;
   std::uint64_t count = 0;
+  std::vector<std::string> shown_by;  ///< where it is not one case: all that show it
+  std::uint64_t explained = 0;        ///< of `count`, where `shown_by` is filled
   Framebuffer got;
   std::vector<std::string> trace;
   std::optional<std::uint32_t> polygon;

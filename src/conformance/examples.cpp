@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "conformance/examples.h"
+
+#include <algorithm>
+#include <memory>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+#include "conformance/shrink.h"
+
+namespace farop::conformance {
+namespace {
+
+std::string_view kind_name(Wrong kind) {
+  switch (kind) {
+    case Wrong::missing:
+      return "missing";
+    case Wrong::extra:
+      return "extra";
+    case Wrong::owner:
+      return "owner";
+    case Wrong::color:
+      break;
+  }
+  return "colour";
+}
+
+Example example_of(const Run& run, const Drawing& drawing, const Framebuffer& got, ConsistentRule rule) {
+  Example e;
+  e.frame = drawing.frame, e.background = run.background(), e.polygons = drawing.polygons;
+  e.flat = flat_text(drawing);
+  const Expectation expected(drawing, rule);
+  e.expected = ideal_picture(expected, run.background());
+  for (int y = 0; y < drawing.frame.y; ++y) {
+    for (int x = 0; x < drawing.frame.x; ++x) e.owners.push_back(expected.nearest(x, y));
+  }
+  if (got.rgb.empty()) {
+    e.expected = {}, e.owners.clear();
+    return e;
+  }
+  e.got = got;
+  const Judged judged = judge(expected, got, {run.background(), false, false, run.options.precision});
+  e.wrong_pixels = judged.wrong.size();
+  for (const WrongSample& s : judged.wrong) {
+    if (e.pixels.size() == k_max_example_pixels) break;
+    WrongPixel p;
+    p.x = s.x, p.y = s.y, p.kind = kind_name(s.kind), p.expected_owner = s.expected_owner,
+    p.got_owner = s.got_owner;
+    p.expected = pixel_at(e.expected, s.x, s.y), p.got = s.got;
+    if (s.expected_owner >= 0) {
+      for (const Attribute a : k_attributes) {
+        const auto& plane = expected.polygons()[static_cast<std::size_t>(s.expected_owner)].plane(a);
+        if (!plane) continue;
+        const Rational v = plane->at(s.x, s.y);
+        ExactValue value;
+        value.name = std::string(1, "zrgb"[static_cast<std::size_t>(a)]);
+        value.numerator = static_cast<std::int64_t>(v.numerator),
+        value.denominator = static_cast<std::int64_t>(v.denominator);
+        if (a != Attribute::z) value.got = s.got[static_cast<std::size_t>(a) - 1];
+        p.values.push_back(std::move(value));
+      }
+    }
+    e.pixels.push_back(std::move(p));
+  }
+  return e;
+}
+
+/// Whether a drawing shows a verdict of this kind; fills the picture.
+bool shows(Run& run, const std::string& verdict, const Drawing& drawing, Subject& subject, Framebuffer& got) {
+  const Drawing given = run.maker.as_given(drawing);
+  if (given.polygons.empty()) return false;
+  Delivered d = run.draw(subject, given);
+  if (d.failure) return d.failure->verdict == verdict;
+  if (!d.picture) return false;
+  for (const SubjectFailure& r : d.remarks) {
+    if (r.verdict == verdict) return got = *d.picture, true;
+  }
+  const bool coverage = verdict.starts_with("cov.") || verdict.starts_with("fill.");
+  const Expectation expected(given, coverage ? ConsistentRule::lb : run.rule);
+  Judged judged;
+  bool found = false;
+  if (verdict.starts_with("tile.")) {
+    // A neighbour is needed: a gap between two polygons, a sample drawn twice.
+    Drawing backward = given;
+    std::ranges::reverse(backward.polygons);
+    const Delivered b = run.draw(subject, backward);
+    if (!b.picture || given.polygons.size() < 2) return false;
+    for (int y = 0; y < given.frame.y && !found; ++y) {
+      for (int x = 0; x < given.frame.x && !found; ++x) {
+        const bool drawn = pixel_at(*d.picture, x, y) != run.background();
+        found = verdict == "tile.gap" ? !expected.covering(x, y).empty() && !drawn
+                                      : expected.covering(x, y).size() < 2 && drawn &&
+                                            !near(pixel_at(*d.picture, x, y), pixel_at(*b.picture, x, y));
+      }
+    }
+  } else {
+    judged = judge(expected, *d.picture,
+                   {run.background(), run.skip_boundary && !coverage, false, run.options.precision});
+    for (const WrongSample& s : judged.wrong) {
+      const bool samples = s.kind == Wrong::missing || s.kind == Wrong::extra;
+      if (coverage || verdict == "depth.far-plane")
+        found = found || samples;
+      else if (verdict.starts_with("depth.") || verdict == "colour.stale")
+        found = found || s.kind == Wrong::owner;
+      else if (verdict.starts_with("colour."))
+        found = found || s.kind == Wrong::color;
+    }
+    if (verdict == "colour.truncation") found = judged.truncated > 0;
+  }
+  if (found) got = *d.picture;
+  return found;
+}
+
+}  // namespace
+
+void add_examples(Run& run, Finding& f, std::vector<const Problem*> members) {
+  const auto effort = [](const Problem* p) {
+    std::size_t corners = 0;
+    for (const TestPolygon& polygon : p->drawing.polygons) corners += polygon.size();
+    return std::tuple(p->drawing.polygons.size(), corners, p->count);
+  };
+  std::ranges::stable_sort(members,
+                           [&](const Problem* a, const Problem* b) { return effort(a) < effort(b); });
+  const bool coverage = f.verdict.starts_with("cov.") || f.verdict.starts_with("fill.");
+  const std::unique_ptr<Subject> subject = run.maker.make(0);
+  for (std::size_t i = 0; i < members.size() && i < 3; ++i) {
+    const Problem& p = *members[i];
+    Drawing drawing = p.drawing;
+    Framebuffer got = p.got;
+    int renders = 0;
+    bool shrunk_it = false;
+    const bool can_shrink = run.options.shrink && i == 0 && f.severity != Severity::information &&
+                            !f.verdict.starts_with("det.") && !f.verdict.starts_with("meta.") &&
+                            f.verdict != "abi.state" && f.verdict != "depth.ties";
+    if (can_shrink && !f.verdict.starts_with("frame.")) {
+      Framebuffer last = got, seen;
+      const auto fails = [&](const Drawing& d) {
+        if (!shows(run, f.verdict, d, *subject, seen)) return false;
+        last = seen;
+        return true;
+      };
+      if (fails(drawing)) {
+        drawing = shrunk(drawing, fails, {}, renders);
+        got = last, shrunk_it = true;
+      }
+    }
+    Example e = example_of(run, drawing, got, coverage ? ConsistentRule::lb : run.rule);
+    e.from_case = p.case_id, e.renders = renders, e.shrunk = shrunk_it;
+    f.examples.push_back(std::move(e));
+  }
+}
+
+}  // namespace farop::conformance

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "conformance/outcome.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace farop::conformance {
+
+void Outcome::add(Outcome other) {
+  depths.add(other.depths), colors.add(other.colors);
+  worst_color = std::max(worst_color, other.worst_color);
+  for (Problem& p : other.problems) problems.push_back(std::move(p));
+  for (Evidence& e : other.evidence) evidence.push_back(std::move(e));
+}
+
+}  // namespace farop::conformance
