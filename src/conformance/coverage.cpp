@@ -34,9 +34,14 @@ std::uint8_t right_of_line(std::int64_t dx) {
   return rules;
 }
 
+/// In samples; rounded up.
+constexpr std::int64_t to_samples(std::int64_t fine, int bits) {
+  return (fine + (std::int64_t{1} << bits) - 1) >> bits;
+}
+
 }  // namespace
 
-Bitmap coverage_masks(std::span<const ScreenVertex> polygon, const Window& window) {
+Bitmap coverage_masks(std::span<const ScreenVertex> polygon, const Window& window, int subpixel_bits) {
   Bitmap masks(window);
   if (masks.at.empty()) return masks;
   // A sample is inside when the number of edges to its left is odd: each edge is noted where its right side
@@ -47,17 +52,21 @@ Bitmap coverage_masks(std::span<const ScreenVertex> polygon, const Window& windo
     if (low.y > high.y) std::swap(low, high);
     const std::int64_t dx = std::int64_t{high.x} - low.x, dy = std::int64_t{high.y} - low.y;
     const std::uint8_t on_line = right_of_line(dx);
-    const int first = std::max(low.y, window.y0), last = std::min(high.y, window.y1 - 1);
+    const int first = static_cast<int>(std::max<std::int64_t>(to_samples(low.y, subpixel_bits), window.y0));
+    const int last = std::min(high.y >> subpixel_bits, window.y1 - 1);
     for (int y = first; y <= last; ++y) {
-      const auto rules = static_cast<std::uint8_t>((y < high.y ? k_up : 0) | (y > low.y ? k_down : 0));
-      const Wide product = Wide{std::int64_t{y} - low.y} * dx;
+      const std::int64_t row = std::int64_t{y} << subpixel_bits;
+      const auto rules = static_cast<std::uint8_t>((row < high.y ? k_up : 0) | (row > low.y ? k_down : 0));
+      const Wide product = Wide{row - low.y} * dx;
       // Nearly everything fits 64 bits, where a division is ten times as fast.
       const bool fits = product >= INT64_MIN && product <= INT64_MAX;
       const std::int64_t quotient =
           fits ? static_cast<std::int64_t>(product) / dy : static_cast<std::int64_t>(product / dy);
       const Wide remainder = product - Wide{quotient} * dy;
-      const std::int64_t x = low.x + quotient + (remainder > 0 ? 1 : 0);  // first sample not left of the edge
-      const std::uint8_t at_x = remainder == 0 ? rules & on_line : rules;
+      const std::int64_t column = low.x + quotient + (remainder > 0 ? 1 : 0);
+      const std::int64_t x = to_samples(column, subpixel_bits);  // first sample not left of the edge
+      const bool on_edge = remainder == 0 && x << subpixel_bits == column;
+      const std::uint8_t at_x = on_edge ? rules & on_line : rules;
       const auto toggle = [&](std::int64_t where, std::uint8_t what) {
         if (where < window.x1)
           masks.at[masks.window.index(static_cast<int>(std::max<std::int64_t>(where, window.x0)), y)] ^= what;

@@ -24,8 +24,9 @@ constexpr std::uint8_t rule_bit(ConsistentRule rule) {
 }
 
 /// For every sample of the window a byte with rule_bit() of each rule that covers it: 0xFF inside, 0 outside,
-/// anything on the boundary. Any coordinates of 32 bits.
-Bitmap coverage_masks(std::span<const ScreenVertex> polygon, const Window& window);
+/// anything on the boundary. Any coordinates of 32 bits. `subpixel_bits` B, 0..16: corners are in units of
+/// 2^-B of the distance between samples, and sample (i, j) lies at (i 2^B, j 2^B).
+Bitmap coverage_masks(std::span<const ScreenVertex> polygon, const Window& window, int subpixel_bits = 0);
 
 /// Sets `value` where an edge passes exactly through a sample.
 void mark_boundary(std::span<const ScreenVertex> polygon, Bitmap& bitmap, std::uint8_t value);
