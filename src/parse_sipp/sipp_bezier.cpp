@@ -88,9 +88,12 @@ std::shared_ptr<Object> bezier_rotcurves(std::span<const V3d> points, std::span<
     double t = 0;  // step by step, as SIPP does
     for (int i = 0; i < resolution; ++i) {
       const double next_t = t + step;
-      V3d p0 = point(t), p1 = point(next_t);
+      const V3d first0 = point(t), first1 = point(next_t);
+      V3d p0 = first0, p1 = first1;
       for (int k = 0; k < around; ++k) {
-        const V3d p3 = turned(p0), p2 = turned(p1);
+        // The last step ends where the first began, so that a seam of textures leaves no gap.
+        const bool last = k + 1 == around;
+        const V3d p3 = last ? first0 : turned(p0), p2 = last ? first1 : turned(p1);
         const double u = static_cast<double>(k) / around, next_u = static_cast<double>(k + 1) / around;
         shape.polygon({{p0, V3d(u, t, 0)},
                        {p3, V3d(next_u, t, 0)},

@@ -79,11 +79,16 @@ std::shared_ptr<Object> torus(double big_radius, double small_radius, int around
     }
     v_of_tube.emplace_back(0, v, 0);
   }
+  const Columns first_ring = old_ring;
   Columns new_ring = old_ring;
   double old_angle = 0;
   for (int k = 0; k < around_ring; ++k) {
-    // Step by step, as SIPP turns it: the last ring meets the first through the merging tolerance.
-    for (std::size_t i = 0; i < tube; ++i) {
+    // Step by step, as SIPP turns it. There the last ring meets the first through the merging tolerance,
+    // which does not reach over a seam of textures: it is the first here, bit for bit, and the tube is
+    // closed.
+    const bool last = k + 1 == around_ring;
+    if (last) new_ring = first_ring;
+    for (std::size_t i = 0; i < tube && !last; ++i) {
       const V3d& p = old_ring[i];
       new_ring[i] = V3d(p.x * c - p.y * s, p.x * s + p.y * c, p.z);
     }
