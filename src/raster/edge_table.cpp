@@ -22,7 +22,7 @@ void EdgeTable::load(std::span<const ScreenVertex> corners) {
   edges_.clear();
   active_.clear();
   spans_.clear();
-  first_row_ = height_, end_row_ = 0;
+  first_row_ = window_.end_y, end_row_ = 0;
   const auto count = static_cast<std::uint32_t>(corners.size());
   for (std::uint32_t i = 0; i < count; ++i) add_edge(i, i + 1 < count ? i + 1 : 0);
 
@@ -36,14 +36,14 @@ void EdgeTable::load(std::span<const ScreenVertex> corners) {
   row_ = first_row_ - 1;
 }
 
-// Enters the edge between two corners unless it meets no row of the frame (horizontal edges never do).
+// Enters the edge between two corners unless it meets no row of the window (horizontal edges never do).
 void EdgeTable::add_edge(std::uint32_t a, std::uint32_t b) {
   if (corners_[a].y > corners_[b].y) std::swap(a, b);
   const std::int64_t x1 = corners_[a].x, y1 = corners_[a].y;
   const std::int64_t x2 = corners_[b].x, y2 = corners_[b].y;
   const auto row_at_or_above = [&](std::int64_t y) { return -((-y) >> subpixel_bits_); };
-  const std::int64_t start = std::max<std::int64_t>(row_at_or_above(y1), 0);
-  const std::int64_t end = std::min<std::int64_t>(row_at_or_above(y2), height_);
+  const std::int64_t start = std::max<std::int64_t>(row_at_or_above(y1), window_.y);
+  const std::int64_t end = std::min<std::int64_t>(row_at_or_above(y2), window_.end_y);
   if (start >= end) return;
 
   const std::int64_t dx = x2 - x1, dy = y2 - y1;
@@ -105,8 +105,8 @@ void EdgeTable::collect_spans() {
   for (std::size_t k = 0; k + 1 < active_.size(); k += 2) {
     const Edge& left = edges_[active_[k]];
     const Edge& right = edges_[active_[k + 1]];
-    const std::int64_t first = std::max<std::int64_t>(left.first, 0);
-    const std::int64_t end = std::min<std::int64_t>(right.first, width_);
+    const std::int64_t first = std::max<std::int64_t>(left.first, window_.x);
+    const std::int64_t end = std::min<std::int64_t>(right.first, window_.end_x);
     if (first >= end) continue;
     // Distances are sums of terms that are exact up to rounding and never negative: a span much narrower than
     // a pixel keeps its relative precision, however steep the attributes run in it.
@@ -115,7 +115,7 @@ void EdgeTable::collect_spans() {
         static_cast<double>(right.denominator - right.excess) / static_cast<double>(right.denominator);
     Span span;
     span.first = static_cast<int>(first), span.end = static_cast<int>(end);
-    span.distance = static_cast<double>(first - left.first) + left_rest;
+    span.left_column = left.first, span.left_rest = left_rest;
     span.width = (static_cast<double>(right.first - 1 - left.first) + left_rest) + right_rest;
     span.left = crossing(left), span.right = crossing(right);
     spans_.push_back(span);

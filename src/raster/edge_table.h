@@ -27,20 +27,29 @@ struct EdgePoint {
 };
 
 /// Covered samples of one row between two crossings x_left < x_right.
-/// Column i lies at (distance + i - first) / width of the way from `left` to `right`; never negative, below 1
-/// but for the last bit.
+/// Column i lies at distance(i) / width of the way from `left` to `right`; never negative, below 1 but for
+/// the last bit. Of a window of the frame only first and end differ from the whole frame's.
 struct Span {
-  int first = 0, end = 0;  ///< columns first .. end - 1, inside the frame, at least one
-  double distance = 0;     ///< first - x_left, columns
-  double width = 0;        ///< x_right - x_left, columns, > 0
+  int first = 0, end = 0;        ///< columns first .. end - 1, inside the window, at least one
+  std::int64_t left_column = 0;  ///< first sample at or to the right of x_left, wherever the window is
+  double left_rest = 0;          ///< left_column - x_left
+  double width = 0;              ///< x_right - x_left, columns, > 0
   EdgePoint left, right;
+
+  double distance(int column) const { return static_cast<double>(column - left_column) + left_rest; }
+};
+
+/// Columns x .. end_x - 1 and rows y .. end_y - 1 of a frame, none negative.
+struct Window {
+  int x = 0, y = 0, end_x = 0, end_y = 0;
 };
 
 class EdgeTable {
  public:
   /// Spans are cut to columns 0 .. width - 1 and rows 0 .. height - 1.
-  EdgeTable(int width, int height, int subpixel_bits)
-      : width_(width), height_(height), subpixel_bits_(subpixel_bits) {}
+  EdgeTable(int width, int height, int subpixel_bits) : EdgeTable({0, 0, width, height}, subpixel_bits) {}
+  /// Spans are cut to the window.
+  EdgeTable(const Window& window, int subpixel_bits) : window_(window), subpixel_bits_(subpixel_bits) {}
 
   /// Starts a polygon: any number of corners, any coordinates. `corners` must live until the last next_row().
   void load(std::span<const ScreenVertex> corners);
@@ -70,13 +79,14 @@ class EdgeTable {
   bool left_of(const Edge& a, const Edge& b) const;
   EdgePoint crossing(const Edge& edge) const;
 
-  int width_, height_, subpixel_bits_;
+  Window window_;
+  int subpixel_bits_;
   std::span<const ScreenVertex> corners_;
   std::vector<Edge> edges_;
   std::vector<std::uint32_t> buckets_;  ///< per row from first_row_: first edge that starts there
   std::vector<std::uint32_t> active_;   ///< edges that cross row_, from left to right
   std::vector<Span> spans_;
-  int first_row_ = 0, end_row_ = 0;  ///< of the polygon, inside the frame
+  int first_row_ = 0, end_row_ = 0;  ///< of the polygon, inside the window
   int row_ = 0;
 };
 

@@ -56,7 +56,7 @@ TEST(EdgeTable, MeasuresSpansFromTheExactCrossings) {
   ASSERT_EQ(table.spans().size(), 1u);  // from 8/7 to 8 1/2
   EXPECT_EQ(table.spans()[0].first, 2);
   EXPECT_EQ(table.spans()[0].end, 9);
-  EXPECT_DOUBLE_EQ(table.spans()[0].distance, 2 - 8.0 / 7);
+  EXPECT_DOUBLE_EQ(table.spans()[0].distance(table.spans()[0].first), 2 - 8.0 / 7);
   EXPECT_DOUBLE_EQ(table.spans()[0].width, 8.5 - 8.0 / 7);
   EXPECT_DOUBLE_EQ(table.spans()[0].left.along, 4.0 / 7);
   EXPECT_DOUBLE_EQ(table.spans()[0].right.along, 1.0 / 4);
@@ -72,7 +72,7 @@ TEST(EdgeTable, PairsCrossingsFromLeftToRight) {
     while (table.next_row()) {
       double last_right = -1;
       for (const Span& span : table.spans()) {
-        const double left = span.first - span.distance;
+        const double left = span.first - span.distance(span.first);
         ASSERT_GE(left, last_right - 1e-9) << "polygon " << i << " row " << table.row();
         ASSERT_GT(span.width, 0);
         last_right = left + span.width;
@@ -278,7 +278,7 @@ TEST(EdgeTable, ReportsTheSameSpansFromEveryStartAndInBothDirections) {
                                        double(c[p.top].y), p.along});
           }
           spans.insert(spans.end(),
-                       {double(table.row()), double(s.first), double(s.end), s.distance, s.width});
+                       {double(table.row()), double(s.first), double(s.end), s.distance(s.first), s.width});
         }
       }
       return spans;

@@ -195,6 +195,49 @@ TEST(Interpolation, KeepsConstantsAndGivesExactIntegersWhereThePlaneHasThem) {
   }
 }
 
+/// Corners on a half circle or so, seen from the lowest one in order: convex, or a fan at least.
+Corners random_fan(Random& random, int last) {
+  Corners corners = {vertex(random.integer(last / 3, 2 * last / 3), 0)};
+  const int n = random.integer(3, 8);
+  for (int k = 0; k < n; ++k) corners.push_back(vertex(random.integer(0, last), random.integer(1, last)));
+  const auto is_before = [&](const ScreenVertex& p, const ScreenVertex& q) {
+    return doubled_area(corners[0], p, q) > 0;
+  };
+  std::sort(corners.begin() + 1, corners.end(), is_before);
+  return corners;
+}
+
+TEST(Interpolation, TakesAPolygonThatItsLowestCornerSeesAsTheFanFromThere) {
+  Random random(17);
+  const int bits = 3, last = 31 << bits;
+  Canvas canvas(make_frame(32, 32, bits, std::int64_t{1} << 24)), part = canvas;
+  int compared = 0;
+  for (int i = 0; i < 500; ++i) {
+    Corners corners = random_fan(random, last);
+    give_random_attributes(corners, random, std::int64_t{1} << 24);
+    ASSERT_EQ(fan_center(corners), 0u);
+    canvas.draw(corners);
+    for (std::uint32_t k = 1; k + 1 < corners.size(); ++k) {
+      part.draw({corners[0], corners[k], corners[k + 1]});
+      for (std::size_t s = 0; s < part.buffer.samples.size(); ++s) {
+        if (part.buffer.samples[s].depth == part.buffer.empty_depth) continue;
+        ++compared;
+        ASSERT_EQ(canvas.buffer.samples[s].depth, part.buffer.samples[s].depth) << "fan " << i;
+        ASSERT_EQ(canvas.buffer.samples[s].value, part.buffer.samples[s].value) << "fan " << i;
+      }
+    }
+  }
+  EXPECT_GT(compared, 100000);
+}
+
+TEST(Interpolation, FindsNoFanWhereTrianglesWouldOverlap) {
+  // A part that the lowest corner cannot see, a second corner at its place, too few corners.
+  EXPECT_FALSE(fan_center(Corners{vertex(0, 0), vertex(9, 3), vertex(3, 9), vertex(9, 9)}));
+  EXPECT_FALSE(fan_center(Corners{vertex(0, 0), vertex(9, 3), vertex(0, 0), vertex(3, 9)}));
+  EXPECT_TRUE(fan_center(Corners{vertex(9, 3), vertex(0, 0), vertex(3, 9), vertex(9, 9)}));
+  EXPECT_FALSE(fan_center(Corners{vertex(0, 0), vertex(9, 3)}));
+}
+
 TEST(Interpolation, DoesNotDependOnTheStartingCornerOrTheDirection) {
   Random random(16);
   for (int i = 0; i < 500; ++i) {
