@@ -15,6 +15,7 @@
 #include "raster/polygon_filler.h"
 #include "raster/resolve.h"
 #include "raster/sample_buffer.h"
+#include "raster/tiled/tiled_frame.h"
 
 namespace farop {
 namespace {
@@ -81,12 +82,13 @@ struct InternalRasterizer::FilledFrame {
 
   static SampleBuffer make_buffer(const ScreenFrame& frame, const InternalRasterizerOptions& options) {
     SampleBuffer b;
-    b.width = frame.resolution.x, b.height = frame.resolution.y;
+    b.window = {0, 0, frame.resolution.x, frame.resolution.y};
+    b.stride = frame.resolution.x;
     b.empty_depth = static_cast<std::int32_t>(frame.resolution.z);
     const auto [red, green, blue] = to_bytes(options.background);
-    const std::size_t count = b.index(0, b.height);
-    b.samples.assign(count, {V3f(red, green, blue), b.empty_depth});
-    if (options.mode == DrawMode::phong) b.points.resize(count);
+    b.depths.assign(b.count(), b.empty_depth);
+    b.values.assign(b.count(), V3f(red, green, blue));
+    if (options.mode == DrawMode::phong) b.points.resize(b.count());
     return b;
   }
 
@@ -108,18 +110,32 @@ void InternalRasterizer::begin_frame(const ScreenFrame& frame) {
   picture_ = {};
   counts_ = {};
   with_memory(frame_, [&] {
-    if (options_.mode != DrawMode::line) {
-      filled_ = std::make_unique<FilledFrame>(frame_, options_, counts_);
-      return;
-    }
-    picture_.width = frame_.resolution.x, picture_.height = frame_.resolution.y;
-    const std::size_t pixels = picture_.pixel(0, picture_.height);
+    const Transparency transparency =
+        options_.additive_transparency ? Transparency::additive : Transparency::over;
     const std::array<std::uint8_t, 3> background = to_bytes(options_.background);
-    picture_.rgb.resize(3 * pixels);
-    for (std::size_t i = 0; i < picture_.rgb.size(); ++i) picture_.rgb[i] = background[i % 3];
-    if (options_.keep_depth) picture_.depth.assign(pixels, static_cast<float>(frame_.resolution.z));
+    if (options_.mode == DrawMode::line) {
+      make_picture();
+      for (std::size_t i = 0; i < picture_.rgb.size(); ++i) picture_.rgb[i] = background[i % 3];
+      std::fill(picture_.depth.begin(), picture_.depth.end(), static_cast<float>(frame_.resolution.z));
+    } else if (options_.tuning.path == RasterPath::plain) {
+      filled_ = std::make_unique<FilledFrame>(frame_, options_, counts_);
+    } else {
+      make_picture();
+      if (!tiled_) tiled_ = std::make_unique<tiled::TiledFrame>(options_.tuning);
+      const std::uint32_t word =
+          background[0] | std::uint32_t{background[1]} << 8 | std::uint32_t{background[2]} << 16;
+      tiled_->start(frame_, {options_.mode, options_.samples, word, transparency, &options_.shading});
+    }
   });
   in_frame_ = true;
+}
+
+void InternalRasterizer::make_picture() {
+  picture_.width = frame_.resolution.x / options_.samples;
+  picture_.height = frame_.resolution.y / options_.samples;
+  const std::size_t pixels = picture_.pixel(0, picture_.height);
+  picture_.rgb.resize(3 * pixels);
+  if (options_.keep_depth) picture_.depth.resize(pixels);
 }
 
 void InternalRasterizer::polygons(const ScreenPolygonBatch& batch) {
@@ -136,8 +152,10 @@ void InternalRasterizer::polygons(const ScreenPolygonBatch& batch) {
   counts_.polygons += batch.polygons.size();
   if (options_.mode == DrawMode::line) {
     draw_lines(batch);
-  } else {
+  } else if (filled_) {
     with_memory(frame_, [&] { draw_filled(batch); });
+  } else {
+    with_memory(frame_, [&] { tiled_->add(batch); });
   }
 }
 
@@ -181,11 +199,16 @@ void InternalRasterizer::draw_filled(const ScreenPolygonBatch& batch) {
 void InternalRasterizer::end_frame() {
   if (!in_frame_) broken_contract("end of a frame that was not begun");
   in_frame_ = false;
-  if (!filled_) return;
+  if (options_.mode == DrawMode::line) return;
+  if (!filled_) {
+    with_memory(frame_, [&] { tiled_->finish(picture_); });
+    return;
+  }
   with_memory(frame_, [&] {
-    picture_ = resolve(filled_->buffer, options_.samples, options_.keep_depth,
-                       options_.additive_transparency ? Transparency::additive : Transparency::over,
-                       options_.shading, counts_);
+    make_picture();
+    resolve(filled_->buffer, options_.samples,
+            options_.additive_transparency ? Transparency::additive : Transparency::over, options_.shading,
+            counts_, picture_);
   });
   filled_.reset();
 }

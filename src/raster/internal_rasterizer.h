@@ -7,10 +7,12 @@
 // Coverage:  fill rule `lb`, exact on integers (edge_table.h). Depth: integers, rounded to nearest; strictly
 //            nearer wins, of equal depths the first drawn stays. Colours: 8 bits (of another colour
 //            resolution than 256, round(255 c / (CRES - 1)) at the corners), rounded once.
-// Memory:    filled modes 16 bytes a sample, Phong 32; 12 more once a shader wants texture
-//            coordinates; 4 more once a transparent polygon is drawn, and 32 for every transparent fragment
-//            that is visible when drawn; then 3 bytes a pixel of the result (7
-//            with depth), while the samples are still there. Line mode 3 (7) bytes a pixel.
+// Paths:     filled modes have a fast path (tiled/) and a plain one (polygon_filler.h) that draw the same
+//            picture.
+// Memory:    3 bytes a pixel of the result (7 with depth). Beside it the tiled path's waiting triangles
+//            (tiled/tiled_frame.h); or the plain path's samples, 16 bytes each, Phong 32, 12 more once a
+//            shader wants texture coordinates, 4 more once a transparent polygon is drawn, and 32 for every
+//            transparent fragment visible when drawn.
 #pragma once
 
 #include <cstdint>
@@ -22,9 +24,14 @@
 #include "core/framebuffer.h"
 #include "core/screen_polygon.h"
 #include "raster/raster_counts.h"
+#include "raster/raster_tuning.h"
 #include "shading/light.h"
 
 namespace farop {
+
+namespace tiled {
+class TiledFrame;
+}
 
 struct InternalRasterizerOptions {
   DrawMode mode = DrawMode::gouraud;
@@ -36,6 +43,7 @@ struct InternalRasterizerOptions {
   /// until they reach 1.
   bool additive_transparency = false;
   ShadingFrame shading;  ///< phong: what fragments are lit with
+  RasterTuning tuning;
 };
 
 /// Frames one after another: begin_frame, polygons any number of times, end_frame, take.
@@ -63,7 +71,8 @@ class InternalRasterizer : public ScreenPolygonSink {
 
   /// The finished picture, once per frame. Depth in line mode is ZRES everywhere: lines have none.
   Framebuffer take();
-  /// Of the current or last frame; in line mode polygons alone are counted.
+  /// Of the current or last frame; the plain path counts everything, line mode and the tiled path polygons
+  /// alone.
   const RasterCounts& counts() const { return counts_; }
 
  private:
@@ -71,12 +80,14 @@ class InternalRasterizer : public ScreenPolygonSink {
 
   void draw_lines(const ScreenPolygonBatch& batch);
   void draw_filled(const ScreenPolygonBatch& batch);
+  void make_picture();
 
   InternalRasterizerOptions options_;
   ScreenFrame frame_;
   std::vector<ScreenVertex> flat_corners_;  ///< scratch: corners that all have the first one's colour
   bool in_frame_ = false;
-  std::unique_ptr<FilledFrame> filled_;  ///< while a frame of a filled mode is drawn
+  std::unique_ptr<FilledFrame> filled_;       ///< while a frame of a filled mode is drawn, plain path
+  std::unique_ptr<tiled::TiledFrame> tiled_;  ///< of all frames of filled modes, tiled path
   Framebuffer picture_;
   RasterCounts counts_;
 };

@@ -19,17 +19,6 @@ struct Ramp {
   T start, slope;
 };
 
-/// Whether nothing behind the polygon can be seen.
-bool is_opaque(const SurfaceLook& look) {
-  if (look.material == nullptr) return true;
-  return look.shader != nullptr ? look.shader->opaque() : look.material->opaque();
-}
-
-bool is_invisible(const SurfaceLook& look) {
-  if (look.material == nullptr) return false;
-  return look.shader != nullptr ? look.shader->invisible() : look.material->opacity() == Rgb{0, 0, 0};
-}
-
 V3d vector(const Rgb& c) {
   return {c.r, c.g, c.b};
 }
@@ -47,18 +36,18 @@ PolygonFiller::PolygonFiller(const ScreenFrame& frame, SampleBuffer& buffer, con
     : buffer_(buffer),
       shading_(shading),
       counts_(counts),
-      edge_table_(buffer.width, buffer.height, frame.subpixel_bits),
+      edge_table_(buffer.window, frame.subpixel_bits),
       subpixel_bits_(frame.subpixel_bits),
       color_resolution_(frame.resolution.color),
       phong_(!buffer.points.empty()) {}
 
 void PolygonFiller::fill(const FillPolygon& polygon) {
   const SurfaceLook& look = polygon.look;
-  if (is_invisible(look)) return;
-  opaque_ = is_opaque(look);
+  if (look.is_invisible()) return;
+  opaque_ = look.is_opaque();
   textured_ = phong_ && look.shader != nullptr && look.shader->wants_texture();
-  if (textured_ && buffer_.textures.empty()) buffer_.textures.assign(buffer_.samples.size(), V3f(0, 0, 0));
-  look_number_ = buffer_.materials.number(look.material, look.shader);
+  if (textured_ && buffer_.textures.empty()) buffer_.textures.assign(buffer_.count(), V3f(0, 0, 0));
+  look_number_ = buffer_.materials.number(look);
   load_attributes(polygon);
   const std::optional<std::uint32_t> center = fan_center(corners_);
   if (!center) {
@@ -198,14 +187,14 @@ void PolygonFiller::fill_triangle(const std::array<std::uint32_t, 3>& numbers, c
 
 template <class Values>
 void PolygonFiller::fill_span(const Span& span, const Values& values, const SurfaceLook& look) {
-  const std::size_t row = buffer_.index(0, edge_table_.row());
+  const int y = edge_table_.row();
   std::uint64_t visible = 0, lit_now = 0, transparent = 0;
 
   const auto for_each_visible = [&](auto&& draw) {
     for (int x = span.first; x < span.end; ++x) {
-      const std::size_t sample = row + static_cast<std::size_t>(x);
+      const std::size_t sample = buffer_.index(x, y);
       const std::int32_t z = values.depth(x);
-      if (z >= buffer_.samples[sample].depth) continue;
+      if (z >= buffer_.depths[sample]) continue;
       ++visible;
       draw(sample, x, z);
     }
@@ -224,27 +213,27 @@ void PolygonFiller::fill_span(const Span& span, const Values& values, const Surf
         ++lit_now;
         if (lit.opacity.x >= 1 && lit.opacity.y >= 1 && lit.opacity.z >= 1) {
           // Not known before it was lit: it hides what is behind like any opaque sample, but has its colour.
-          buffer_.samples[sample] = {lit.color, z};
+          buffer_.put(sample, z, lit.color);
           buffer_.points[sample].material = 0;
           return;
         }
-        buffer_.fragments.add(sample, buffer_.samples.size(), z, lit.color, lit.opacity);
+        buffer_.fragments.add(sample, buffer_.count(), z, lit.color, lit.opacity);
         ++transparent;
         return;
       }
-      buffer_.samples[sample] = {V3f(values.normal(x)), z};
+      buffer_.put(sample, z, V3f(values.normal(x)));
       buffer_.points[sample] = {V3f(place.position), look_number_};
       if (textured_) buffer_.textures[sample] = V3f(place.texture);
     });
     counts_.reflections += lit_now;
   } else if (!opaque_) {
     for_each_visible([&](std::size_t sample, int x, std::int32_t z) {
-      buffer_.fragments.add(sample, buffer_.samples.size(), z, values.color(x), V3f(values.opacity(x)));
+      buffer_.fragments.add(sample, buffer_.count(), z, values.color(x), V3f(values.opacity(x)));
       ++transparent;
     });
   } else {
     for_each_visible([&](std::size_t sample, int x, std::int32_t z) {
-      buffer_.samples[sample] = {values.color(x), z};
+      buffer_.put(sample, z, values.color(x));
       if (phong_) buffer_.points[sample].material = look_number_;
     });
   }

@@ -174,6 +174,7 @@ struct Contestant {
 void count_pixels(LoadedScene& loaded, SceneResult& result) {
   InternalRasterizerOptions options;
   options.keep_depth = true;
+  options.tuning.path = RasterPath::plain;  // it counts
   InternalRasterizer rasterizer(options);
   GeometryClocks clocks;
   run_geometry(loaded.session.scene, *loaded.session.report.setup, loaded.geometry, rasterizer, clocks);

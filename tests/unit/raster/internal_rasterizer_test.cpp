@@ -167,8 +167,10 @@ TEST(InternalRasterizer, RoundsAMeanOfOneHalfUpwards) {
   EXPECT_EQ(red(picture, 0, 0), 101);  // 402 / 4 = 100.5
 }
 
-TEST(InternalRasterizer, DrawsTheSameFrameAgainAfterAnother) {
-  InternalRasterizer rasterizer({});
+void draw_the_same_frame_again(RasterPath path) {
+  InternalRasterizerOptions options;
+  options.tuning.path = path;
+  InternalRasterizer rasterizer(options);
   const auto frame_of = [&](int size, int z, int r) {
     Drawing drawing;
     drawing.add(rectangle(0, 0, size - 1, size - 1, z, r, 0, 0));
@@ -181,7 +183,12 @@ TEST(InternalRasterizer, DrawsTheSameFrameAgainAfterAnother) {
   frame_of(33, 3, 1);
   EXPECT_EQ(frame_of(20, 50, 99), first);
   EXPECT_EQ(rasterizer.counts().polygons, 1u);
-  EXPECT_EQ(rasterizer.counts().fragments, 19u * 19);
+  EXPECT_EQ(rasterizer.counts().fragments, path == RasterPath::plain ? 19u * 19 : 0);
+}
+
+TEST(InternalRasterizer, DrawsTheSameFrameAgainAfterAnother) {
+  draw_the_same_frame_again(RasterPath::plain);
+  draw_the_same_frame_again(RasterPath::tiled);
 }
 
 TEST(InternalRasterizer, LeavesDepthOutUnlessAsked) {
@@ -299,17 +306,24 @@ TEST(InternalRasterizerDeathTest, ReportsAFrameThatDoesNotFitIntoMemory) {
 
 TEST(InternalRasterizerDeathTest, ReportsTransparentLayersThatDoNotFitIntoMemory) {
   if (k_address_sanitizer) GTEST_SKIP() << "AddressSanitizer ends a process that runs out of memory";
-  const auto draw_layers = [] {
-    run_with_little_memory([] {
+  const auto draw_layers = [](RasterPath path, std::size_t waiting_bytes) {
+    run_with_little_memory([&] {
       const Material glass{.transmittance = 0.5};
       Drawing drawing;
       drawing.add(rectangle(0, 0, 999, 999, 5, 1, 2, 3), &glass);
-      InternalRasterizer rasterizer({});
+      InternalRasterizerOptions options;
+      options.tuning.path = path;
+      options.tuning.threads = 1;
+      options.tuning.waiting_bytes = waiting_bytes;
+      InternalRasterizer rasterizer(options);
       rasterizer.begin_frame(make_frame(1000, 1000));
       for (int i = 0; i < 100; ++i) rasterizer.polygons(drawing.batch);
     });
   };
-  EXPECT_EXIT(draw_layers(), testing::ExitedWithCode(static_cast<int>(ExitStatus::surroundings)), "");
+  const auto surroundings = testing::ExitedWithCode(static_cast<int>(ExitStatus::surroundings));
+  EXPECT_EXIT(draw_layers(RasterPath::plain, 0), surroundings, "");
+  EXPECT_EXIT(draw_layers(RasterPath::tiled, 10000), surroundings, "");  // keeps all tiles
+  EXPECT_EXIT(draw_layers(RasterPath::tiled, 1 << 25), testing::ExitedWithCode(0), "");
 }
 
 }  // namespace

@@ -10,20 +10,30 @@
 namespace farop::test {
 namespace {
 
+struct Sample {
+  V3f value;
+  std::int32_t depth;
+};
+
 /// A small frame of samples that one polygon after another is drawn into.
 class Canvas {
  public:
   explicit Canvas(const ScreenFrame& frame) : frame_(frame) {
-    buffer.width = frame.resolution.x, buffer.height = frame.resolution.y;
+    buffer.window = {0, 0, frame.resolution.x, frame.resolution.y};
+    buffer.stride = frame.resolution.x;
     buffer.empty_depth = static_cast<std::int32_t>(frame.resolution.z);
   }
   void draw(const Corners& corners) {
-    buffer.samples.assign(buffer.index(0, buffer.height), {V3f(0), buffer.empty_depth});
+    buffer.depths.assign(buffer.count(), buffer.empty_depth);
+    buffer.values.assign(buffer.count(), V3f(0));
     RasterCounts counts;
     const ShadingFrame dark;
     PolygonFiller filler(frame_, buffer, dark, counts);
     filler.fill({corners, {}, {}, {}, {}, {}});
   }
+
+  Sample sample(std::size_t i) const { return {buffer.values[i], buffer.depths[i]}; }
+  Sample sample(int x, int y) const { return sample(buffer.index(x, y)); }
 
   SampleBuffer buffer;
 
@@ -61,9 +71,9 @@ int expect_affine(const Canvas& canvas, const Corners& corners, int bits) {
     for (const ScreenVertex& v : corners) values.push_back(channel.of_vertex(v));
     const auto exact = reference::AffineFunction::through(corners, values);
     if (!exact) continue;  // all on one line
-    for (int y = 0; y < canvas.buffer.height; ++y) {
-      for (int x = 0; x < canvas.buffer.width; ++x) {
-        const Sample& sample = canvas.buffer.samples[canvas.buffer.index(x, y)];
+    for (int y = 0; y < canvas.buffer.height(); ++y) {
+      for (int x = 0; x < canvas.buffer.width(); ++x) {
+        const Sample sample = canvas.sample(x, y);
         if (sample.depth == canvas.buffer.empty_depth) continue;
         ++covered;
         const std::int64_t value = channel.of_sample(sample);
@@ -164,7 +174,8 @@ TEST(Interpolation, NeverLeavesTheRangeOfTheCorners) {
       std::vector<std::int64_t> values;
       for (const ScreenVertex& v : corners) values.push_back(channel.of_vertex(v));
       const auto [low, high] = std::minmax_element(values.begin(), values.end());
-      for (const Sample& sample : canvas.buffer.samples) {
+      for (std::size_t k = 0; k < canvas.buffer.count(); ++k) {
+        const Sample sample = canvas.sample(k);
         if (sample.depth == canvas.buffer.empty_depth) continue;
         ASSERT_GE(channel.of_sample(sample), *low) << channel.name;
         ASSERT_LE(channel.of_sample(sample), *high) << channel.name;
@@ -184,7 +195,7 @@ TEST(Interpolation, KeepsConstantsAndGivesExactIntegersWhereThePlaneHasThem) {
     canvas.draw(corners);
     for (int y = 0; y < 60; ++y) {
       for (int x = 0; x < 60; ++x) {
-        const Sample& s = canvas.buffer.samples[canvas.buffer.index(x, y)];
+        const Sample s = canvas.sample(x, y);
         if (s.depth == canvas.buffer.empty_depth) continue;
         ASSERT_EQ(s.depth, 12345);
         ASSERT_EQ(to_byte(s.value.x), x);
@@ -219,11 +230,11 @@ TEST(Interpolation, TakesAPolygonThatItsLowestCornerSeesAsTheFanFromThere) {
     canvas.draw(corners);
     for (std::uint32_t k = 1; k + 1 < corners.size(); ++k) {
       part.draw({corners[0], corners[k], corners[k + 1]});
-      for (std::size_t s = 0; s < part.buffer.samples.size(); ++s) {
-        if (part.buffer.samples[s].depth == part.buffer.empty_depth) continue;
+      for (std::size_t s = 0; s < part.buffer.count(); ++s) {
+        if (part.sample(s).depth == part.buffer.empty_depth) continue;
         ++compared;
-        ASSERT_EQ(canvas.buffer.samples[s].depth, part.buffer.samples[s].depth) << "fan " << i;
-        ASSERT_EQ(canvas.buffer.samples[s].value, part.buffer.samples[s].value) << "fan " << i;
+        ASSERT_EQ(canvas.sample(s).depth, part.sample(s).depth) << "fan " << i;
+        ASSERT_EQ(canvas.sample(s).value, part.sample(s).value) << "fan " << i;
       }
     }
   }

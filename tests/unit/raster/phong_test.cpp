@@ -113,7 +113,9 @@ TEST(Phong, LightsOpaqueSamplesOnceHoweverManyLayersThereAre) {
   for (int z = 30; z > 0; --z) {  // back to front: every layer is visible when drawn
     drawing.add(square(z), &material, std::vector<V3f>(4, V3f(0, 0, -1)), square_positions());
   }
-  InternalRasterizer rasterizer(phong_with({{V3d(0, 0, 0), {1, 1, 1}}}));
+  InternalRasterizerOptions options = phong_with({{V3d(0, 0, 0), {1, 1, 1}}});
+  options.tuning.path = RasterPath::plain;  // which counts
+  InternalRasterizer rasterizer(options);
   rasterizer.begin_frame(make_frame(k_size, k_size));
   rasterizer.polygons(drawing.batch);
   rasterizer.end_frame();

@@ -237,7 +237,9 @@ TEST(Transparency, KeepsNoFragmentOfAnInvisibleOrHiddenSurface) {
   drawing.add(rectangle(0, 0, 8, 8, 1, 200, 0, 0), &invisible);
   drawing.add(rectangle(0, 0, 8, 8, 6, 200, 0, 0), &half);
   drawing.add(rectangle(0, 0, 2, 2, 4, 200, 0, 0), &half);
-  InternalRasterizer rasterizer({});
+  InternalRasterizerOptions options;
+  options.tuning.path = RasterPath::plain;  // which counts
+  InternalRasterizer rasterizer(options);
   rasterizer.begin_frame(make_frame(9, 9));
   rasterizer.polygons(drawing.batch);
   rasterizer.end_frame();

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "raster/tiled/portion.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "raster/corner_color.h"
+
+namespace farop::tiled {
+namespace {
+
+template <class T>
+std::span<const T> part(const std::vector<T>& all, std::size_t first, std::size_t count) {
+  return std::span(all).subspan(first, count);
+}
+
+template <class T>
+std::size_t bytes_of(const std::vector<T>& v) {
+  return v.size() * sizeof(T);
+}
+
+/// The largest value that the edge from a to b has at the samples of a tile; negative: none is on its left.
+std::int64_t best_of(const ScreenVertex& a, const ScreenVertex& b, std::int64_t low_x, std::int64_t high_x,
+                     std::int64_t low_y, std::int64_t high_y) {
+  const std::int64_t dx = std::int64_t{b.x} - a.x, dy = std::int64_t{b.y} - a.y;
+  const std::int64_t x = dy > 0 ? low_x : high_x, y = dx > 0 ? high_y : low_y;
+  return dx * (y - a.y) - dy * (x - a.x);
+}
+
+}  // namespace
+
+FillPolygon KeptPolygons::operator[](std::uint32_t number) const {
+  const KeptPolygon& p = polygons[number];
+  FillPolygon polygon{part(corners, p.first, p.count), {}, {}, {}, {}, p.look};
+  if (!normals.empty()) {
+    polygon.normals = part(normals, p.first, p.count);
+    polygon.eye_positions = part(eye_positions, p.first, p.count);
+  }
+  if (p.first_texture != k_no_vertex_id) polygon.textures = part(textures, p.first_texture, p.count);
+  if (p.first_opacity != k_no_vertex_id) polygon.opacities = part(opacities, p.first_opacity, p.count);
+  return polygon;
+}
+
+std::size_t KeptPolygons::bytes() const {
+  return bytes_of(polygons) + bytes_of(corners) + bytes_of(normals) + bytes_of(eye_positions) +
+         bytes_of(textures) + bytes_of(opacities);
+}
+
+void KeptPolygons::clear() {
+  polygons.clear(), corners.clear();
+  normals.clear(), eye_positions.clear(), textures.clear(), opacities.clear();
+}
+
+void Portion::start(const TileGrid& grid, DrawMode mode, int color_resolution) {
+  grid_ = &grid;
+  mode_ = mode;
+  color_resolution_ = color_resolution;
+  pool_.take_all_back();
+  bins_.assign(static_cast<std::size_t>(grid.count()), {});
+  kept_.clear();
+  has_transparent_ = has_shaders_ = false;
+  last_look_ = {}, last_opaque_ = true, last_invisible_ = false;
+}
+
+std::size_t Portion::add(const ScreenPolygonBatch& batch, std::size_t first, std::size_t end,
+                         std::size_t byte_limit) {
+  for (std::size_t i = first; i < end; ++i) {
+    if (bytes() > byte_limit) return i;
+    add_polygon(batch, batch.polygons[i]);
+  }
+  return end;
+}
+
+void Portion::add_polygon(const ScreenPolygonBatch& batch, const ScreenPolygonRecord& record) {
+  const SurfaceLook look{record.material, record.shader};
+  if (look != last_look_) {
+    last_look_ = look;
+    last_opaque_ = look.is_opaque(), last_invisible_ = look.is_invisible();
+    has_shaders_ = has_shaders_ || look.shader != nullptr;
+  }
+  if (last_invisible_ || record.vertex_count == 0) return;
+  const std::span<const ScreenVertex> corners = batch.corners(record);
+  const std::optional<std::uint32_t> center =
+      last_opaque_ ? fan_center(corners) : std::optional<std::uint32_t>();
+  if (!center) {
+    if (all_corners_.size() < corners.size()) {
+      all_corners_.resize(corners.size());
+      std::iota(all_corners_.begin(), all_corners_.end(), 0u);
+    }
+    has_transparent_ = has_transparent_ || !last_opaque_;
+    add_special(batch, record, part(all_corners_, 0, corners.size()));
+    return;
+  }
+  TrianglePayload payload;
+  std::uint32_t first_kept = 0;
+  if (mode_ == DrawMode::phong) {
+    if (all_corners_.size() < corners.size()) {
+      all_corners_.resize(corners.size());
+      std::iota(all_corners_.begin(), all_corners_.end(), 0u);
+    }
+    payload.source = keep(batch, record, part(all_corners_, 0, corners.size()));
+    first_kept = kept_.polygons.back().first;
+  } else if (mode_ == DrawMode::flat) {
+    payload.color[0] = payload.color[1] = payload.color[2] = color_word(corners.front());
+  }
+  for (std::uint32_t i = 1; i + 1 < corners.size(); ++i) {
+    const auto numbers = fan_triangle(corners, *center, i);
+    if (!numbers) continue;
+    const std::uint32_t of_triangle[3] = {(*numbers)[0], (*numbers)[1], (*numbers)[2]};
+    const Triangle t{corners[of_triangle[0]], corners[of_triangle[1]], corners[of_triangle[2]]};
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (mode_ == DrawMode::phong) {
+        payload.color[k] = first_kept + of_triangle[k];
+      } else if (mode_ == DrawMode::gouraud) {
+        payload.color[k] = color_word(corners[of_triangle[k]]);
+      }
+    }
+    add_triangle(batch, record, t, payload, of_triangle);
+  }
+}
+
+std::uint32_t Portion::color_word(const ScreenVertex& v) const {
+  return to_8_bits(v.r, color_resolution_) | std::uint32_t{to_8_bits(v.g, color_resolution_)} << 8 |
+         std::uint32_t{to_8_bits(v.b, color_resolution_)} << 16;
+}
+
+Portion::Samples Portion::samples_of(std::int32_t low_x, std::int32_t high_x, std::int32_t low_y,
+                                     std::int32_t high_y) const {
+  const int bits = grid_->subpixel_bits;
+  const auto sample = [bits](std::int32_t v, int size) {
+    const std::int64_t at_or_after = -(-std::int64_t{v} >> bits);
+    return static_cast<int>(std::clamp<std::int64_t>(at_or_after, 0, size));
+  };
+  return {sample(low_x, grid_->width), sample(high_x, grid_->width), sample(low_y, grid_->height),
+          sample(high_y, grid_->height)};
+}
+
+template <class Add>
+void Portion::for_each_tile(const Samples& samples, const Add& add) {
+  const std::vector<std::int32_t>& tile_of = grid_->tile_of;
+  const auto of = [&](int sample) { return tile_of[static_cast<std::size_t>(sample)]; };
+  const int first_x = of(samples.first_column), last_x = of(samples.end_column - 1);
+  const int first_y = of(samples.first_row), last_y = of(samples.end_row - 1);
+  for (int y = first_y; y <= last_y; ++y) {
+    for (int x = first_x; x <= last_x; ++x) {
+      add(bins_[static_cast<std::size_t>(y * grid_->columns + x)], x, y,
+          first_x == last_x || first_y == last_y);
+    }
+  }
+}
+
+void Portion::add_triangle(const ScreenPolygonBatch& batch, const ScreenPolygonRecord& record,
+                           const Triangle& t, const TrianglePayload& payload,
+                           const std::uint32_t (&numbers)[3]) {
+  const Samples samples = samples_of(std::min({t.a.x, t.b.x, t.c.x}), std::max({t.a.x, t.b.x, t.c.x}), t.a.y,
+                                     std::max(t.b.y, t.c.y));
+  if (samples.empty()) return;
+  if (!is_plane_triangle(t, grid_->subpixel_bits)) {
+    add_special(batch, record, numbers);
+    return;
+  }
+  const int side = grid_->side, bits = grid_->subpixel_bits;
+  for_each_tile(samples, [&](Bin& bin, int x, int y, bool in_line) {
+    if (!in_line) {
+      const std::int64_t low_x = std::int64_t{x * side} << bits, low_y = std::int64_t{y * side} << bits;
+      const std::int64_t reach = std::int64_t{side - 1} << bits;
+      const auto misses = [&](const ScreenVertex& a, const ScreenVertex& b) {
+        return best_of(a, b, low_x, low_x + reach, low_y, low_y + reach) < 0;
+      };
+      if (misses(t.a, t.b) || misses(t.b, t.c) || misses(t.c, t.a)) return;
+    }
+    bin.add(pool_, t, payload);
+  });
+}
+
+void Portion::add_special(const ScreenPolygonBatch& batch, const ScreenPolygonRecord& record,
+                          std::span<const std::uint32_t> numbers) {
+  const std::span<const ScreenVertex> corners = batch.corners(record);
+  std::int32_t low_x = corners[numbers[0]].x, high_x = low_x, low_y = corners[numbers[0]].y, high_y = low_y;
+  for (const std::uint32_t i : numbers) {
+    low_x = std::min(low_x, corners[i].x), high_x = std::max(high_x, corners[i].x);
+    low_y = std::min(low_y, corners[i].y), high_y = std::max(high_y, corners[i].y);
+  }
+  const Samples samples = samples_of(low_x, high_x, low_y, high_y);
+  if (samples.empty()) return;
+  const std::uint32_t number = keep(batch, record, numbers);
+  for_each_tile(samples, [&](Bin& bin, int, int, bool) { bin.add_special(pool_, number); });
+}
+
+std::uint32_t Portion::keep(const ScreenPolygonBatch& batch, const ScreenPolygonRecord& record,
+                            std::span<const std::uint32_t> numbers) {
+  KeptPolygon polygon;
+  polygon.first = static_cast<std::uint32_t>(kept_.corners.size());
+  polygon.count = static_cast<std::uint32_t>(numbers.size());
+  polygon.look = {record.material, record.shader};
+  const std::span<const ScreenVertex> corners = batch.corners(record);
+  for (const std::uint32_t i : numbers) {
+    ScreenVertex v = corners[i];
+    if (mode_ == DrawMode::flat) v.r = corners[0].r, v.g = corners[0].g, v.b = corners[0].b;
+    kept_.corners.push_back(v);
+  }
+  const auto copy = [&](const std::vector<V3f>& from, std::vector<V3f>& to) {
+    const auto first = static_cast<std::uint32_t>(to.size());
+    for (const std::uint32_t i : numbers) to.push_back(from[record.first_vertex + i]);
+    return first;
+  };
+  if (mode_ == DrawMode::phong) {
+    copy(batch.normals, kept_.normals);
+    copy(batch.eye_positions, kept_.eye_positions);
+    if (!batch.textures.empty()) polygon.first_texture = copy(batch.textures, kept_.textures);
+  }
+  if (!batch.opacities.empty()) polygon.first_opacity = copy(batch.opacities, kept_.opacities);
+  kept_.polygons.push_back(polygon);
+  return static_cast<std::uint32_t>(kept_.polygons.size() - 1);
+}
+
+}  // namespace farop::tiled

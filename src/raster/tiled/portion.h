@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Some polygons of a frame in drawing order, sorted into tiles.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "core/draw_mode.h"
+#include "core/screen_polygon.h"
+#include "raster/polygon_filler.h"
+#include "raster/tiled/bins.h"
+#include "raster/tiled/grid.h"
+
+namespace farop::tiled {
+
+/// A polygon of which more is remembered than its triangles in the bins: corners as they came, and what runs
+/// parallel to them.
+struct KeptPolygon {
+  std::uint32_t first = 0,
+                count = 0;  ///< in KeptPolygons::corners and, in Phong frames, the arrays beside it
+  std::uint32_t first_texture = k_no_vertex_id, first_opacity = k_no_vertex_id;
+  SurfaceLook look;
+};
+
+struct KeptPolygons {
+  std::vector<KeptPolygon> polygons;
+  std::vector<ScreenVertex> corners;
+  std::vector<V3f> normals, eye_positions, textures, opacities;
+
+  FillPolygon operator[](std::uint32_t number) const;
+  std::size_t bytes() const;
+  void clear();
+};
+
+/// Filled by one thread, read by all when tiles are drawn.
+class Portion {
+ public:
+  /// Empty, for a new frame or after what it had was drawn. `color_resolution` is the frame's.
+  void start(const TileGrid& grid, DrawMode mode, int color_resolution);
+  /// Takes polygons `first` .. `end` - 1; stops when more than `byte_limit` bytes are in use. Returns the
+  /// first polygon not taken.
+  std::size_t add(const ScreenPolygonBatch& batch, std::size_t first, std::size_t end,
+                  std::size_t byte_limit);
+
+  const Bin& bin(int tile) const { return bins_[static_cast<std::size_t>(tile)]; }
+  const KeptPolygons& kept() const { return kept_; }
+  std::size_t bytes() const { return pool_.used_bytes() + kept_.bytes(); }
+  bool has_transparent() const { return has_transparent_; }
+  bool has_shaders() const { return has_shaders_; }
+
+ private:
+  struct Samples {
+    int first_column, end_column, first_row, end_row;
+    bool empty() const { return first_column >= end_column || first_row >= end_row; }
+  };
+
+  void add_polygon(const ScreenPolygonBatch& batch, const ScreenPolygonRecord& record);
+  void add_triangle(const ScreenPolygonBatch& batch, const ScreenPolygonRecord& record, const Triangle& t,
+                    const TrianglePayload& payload, const std::uint32_t (&numbers)[3]);
+  void add_special(const ScreenPolygonBatch& batch, const ScreenPolygonRecord& record,
+                   std::span<const std::uint32_t> numbers);
+  std::uint32_t keep(const ScreenPolygonBatch& batch, const ScreenPolygonRecord& record,
+                     std::span<const std::uint32_t> numbers);
+  Samples samples_of(std::int32_t low_x, std::int32_t high_x, std::int32_t low_y, std::int32_t high_y) const;
+  template <class Add>
+  void for_each_tile(const Samples& samples, const Add& add);
+  std::uint32_t color_word(const ScreenVertex& v) const;
+
+  const TileGrid* grid_ = nullptr;
+  DrawMode mode_ = DrawMode::gouraud;
+  int color_resolution_ = 256;
+  BlockPool pool_;
+  std::vector<Bin> bins_;
+  KeptPolygons kept_;
+  bool has_transparent_ = false, has_shaders_ = false;
+  SurfaceLook last_look_;  ///< polygons of a surface come in a row
+  bool last_opaque_ = true, last_invisible_ = false;
+  std::vector<std::uint32_t> all_corners_;  ///< 0, 1, 2 ...
+};
+
+}  // namespace farop::tiled
