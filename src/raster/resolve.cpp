@@ -32,6 +32,14 @@ void average(const SampleBuffer& buffer, int degree, Framebuffer& picture, const
   const int block = degree * degree;
   for (int y = w.y / degree; y < w.end_y / degree; ++y) {
     for (int x = w.x / degree; x < w.end_x / degree; ++x) {
+      const std::size_t pixel = picture.pixel(x, y);
+      if (degree == 1) {  // nothing to average
+        const std::size_t index = buffer.index(x, y);
+        const std::array<std::uint8_t, 3> c = color_of(index);
+        std::copy(c.begin(), c.end(), &picture.rgb[3 * pixel]);
+        if (!picture.depth.empty()) picture.depth[pixel] = static_cast<float>(buffer.depths[index]);
+        continue;
+      }
       std::array<int, 3> sum{};
       std::int32_t nearest = buffer.empty_depth;
       for (int sy = y * degree; sy < (y + 1) * degree; ++sy) {
@@ -42,7 +50,6 @@ void average(const SampleBuffer& buffer, int degree, Framebuffer& picture, const
           nearest = std::min(nearest, buffer.depths[index]);
         }
       }
-      const std::size_t pixel = picture.pixel(x, y);
       for (std::size_t c = 0; c < 3; ++c) {
         picture.rgb[3 * pixel + c] = static_cast<std::uint8_t>((2 * sum[c] + block) / (2 * block));
       }

@@ -10,6 +10,7 @@
 //           before they are rounded, so they never leave the range of the corners.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -50,6 +51,17 @@ std::optional<std::uint32_t> fan_center(std::span<const ScreenVertex> corners);
 /// center; counter-clockwise. Nothing where it has no area.
 std::optional<std::array<std::uint32_t, 3>> fan_triangle(std::span<const ScreenVertex> corners,
                                                          std::uint32_t center, std::uint32_t i);
+
+/// is_plane_triangle() of nearly all triangles, quickly; false leaves it open. Coordinates are those of plane
+/// triangles; `extent`: the larger of the lengths in x and y.
+inline bool is_surely_plane_triangle(std::int32_t z1, std::int32_t z2, std::int32_t z3, std::int64_t extent,
+                                     std::int64_t area, int subpixel_bits) {
+  if (static_cast<std::uint32_t>(z1 | z2 | z3) >= 1u << 30) return false;
+  const std::int64_t range = std::max(std::max(z1, z2), z3) - std::min(std::min(z1, z2), z3);
+  return extent <= std::int64_t{1} << (k_plane_extent_bits + subpixel_bits) &&
+         extent << subpixel_bits <= area << 17 &&
+         ((2 * range * extent) << subpixel_bits) >> k_plane_gradient_bits < area;
+}
 
 /// Whether planes can be used (see Errors above). Otherwise, as for polygons without a fan, values are
 /// interpolated along edges and spans. `t` has an area. The same for every order of the corners.

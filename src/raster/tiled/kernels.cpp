@@ -5,13 +5,16 @@
 #define HWY_TARGET_INCLUDE "raster/tiled/kernels.cpp"
 #include <hwy/foreach_target.h>
 // foreach_target.h comes first, so that highway.h is read once per target.
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <type_traits>
 
 #include "raster/tiled/kernels.h"
+#include "raster/triangle_planes.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace farop::tiled::HWY_NAMESPACE {
@@ -37,6 +40,23 @@ using WordVector = hn::Vec<Words>;
 
 constexpr int k_lanes = static_cast<int>(hn::MaxLanes(Doubles()));
 
+// Rows are drawn with whole vectors of 32-bit lanes.
+#if HWY_TARGET == HWY_SCALAR
+using WideInts = Ints;
+using WideWords = Words;
+#else
+using WideInts = hn::Repartition<std::int32_t, Doubles>;
+using WideWords = hn::Repartition<std::uint32_t, Doubles>;
+#endif
+constexpr WideInts dwi;
+constexpr WideWords dww;
+using WideIntVector = hn::Vec<WideInts>;
+using WideWordVector = hn::Vec<WideWords>;
+constexpr int k_wide = static_cast<int>(hn::MaxLanes(WideInts()));
+constexpr int k_wide_parts = k_wide / k_lanes;
+/// Shift that brings the whole part of a fixed-point depth into the upper half of 64 bits.
+constexpr int k_to_upper = 32 - k_plane_fraction_bits;
+
 /// Larger than every column.
 constexpr double k_beyond = 1e9;
 /// See triangle_planes.cpp.
@@ -44,19 +64,39 @@ constexpr double k_to_integer = 0x1.8p52;
 /// Crossings of columns below 2^16 err by less than 2^-36 and are whole or at least 2^-31 beyond.
 constexpr double k_crossing_bias = 0x1p-34;
 
+/// Triangles with so many rows and columns at most are drawn without a branch, a vector a row.
+constexpr int k_tiny_rows = 8, k_tiny_columns = std::max(k_wide, 8);
+
+/// Triangles that are set up together.
+constexpr int k_group = 16;
+
+/// Entries in structure of arrays, as setting up loads them.
+struct alignas(64) Group {
+  std::int32_t x[3][k_group], y[3][k_group], z[3][k_group];
+  std::uint32_t color[3][k_group];
+};
+
 /// The constants of 16 triangles, one array a constant.
 struct alignas(64) SetUp {
   // An edge crosses row j of the tile at column (start + j * slope) * reciprocal.
-  double left_start[k_block], left_slope[k_block], left_reciprocal[k_block];
-  double right_start[k_block], right_slope[k_block], right_reciprocal[k_block];
-  double middle_start[k_block], middle_slope[k_block], middle_reciprocal[k_block];
-  double middle_left[k_block];   ///< +beyond where the middle edge bounds the left side, else -beyond
-  double middle_right[k_block];  ///< -beyond where it bounds the right side, else +beyond
-  std::int64_t depth[k_block], depth_x[k_block], depth_y[k_block];  ///< depth: at the pixel of corner a
-  std::uint32_t color[3][k_block], color_x[3][k_block], color_y[3][k_block];  ///< color: at the tile's corner
-  std::int32_t pixel_x[k_block], pixel_y[k_block];  ///< of corner a, counted from the tile's corner
-  std::int32_t first_row[k_block], end_row[k_block], first_column[k_block], end_column[k_block];
-  std::int32_t nearest[k_block];
+  double left_start[k_group], left_slope[k_group], left_reciprocal[k_group];
+  double right_start[k_group], right_slope[k_group], right_reciprocal[k_group];
+  double middle_start[k_group], middle_slope[k_group], middle_reciprocal[k_group];
+  double middle_left[k_group];   ///< +beyond where the middle edge bounds the left side, else -beyond
+  double middle_right[k_group];  ///< -beyond where it bounds the right side, else +beyond
+  // At the tile's first sample, and from sample to sample.
+  std::int64_t depth[k_group], depth_x[k_group], depth_y[k_group];
+  std::uint32_t color[3][k_group], color_x[3][k_group], color_y[3][k_group];
+  std::int32_t first_row[k_group], end_row[k_group], first_column[k_group], end_column[k_group];
+  std::int32_t nearest[k_group];
+  /// Rows that the tiny arrays have: no tiny triangle set up together with this one has more.
+  std::int32_t tiny_rows[k_group];
+  // Of triangles with at most k_tiny_rows rows: covered columns, from first_row on; none: end <= first.
+  std::int32_t tiny_first[k_tiny_rows][k_group], tiny_end[k_tiny_rows][k_group];
+  /// At the first covered sample, whole part above; then the next row.
+  std::int64_t tiny_depth[k_tiny_rows * k_group];
+  /// At the first covered sample.
+  std::uint32_t tiny_color[3][k_tiny_rows * k_group];
 };
 
 HWY_INLINE LongVector nearest_integer(DoubleVector v) {
@@ -66,6 +106,24 @@ HWY_INLINE LongVector nearest_integer(DoubleVector v) {
 
 HWY_INLINE WordVector low_words(LongVector v) {
   return hn::TruncateTo(dw, hn::BitCast(dul, v));
+}
+
+/// Products modulo 2^64.
+HWY_INLINE LongVector multiply(LongVector a, LongVector b) {
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+  return LongVector{_mm512_mullo_epi64(a.raw, b.raw)};
+#elif HWY_TARGET == HWY_SCALAR
+  return hn::Set(dl, static_cast<std::int64_t>(static_cast<std::uint64_t>(hn::GetLane(a)) *
+                                               static_cast<std::uint64_t>(hn::GetLane(b))));
+#else
+  const hn::Repartition<std::uint32_t, Longs> halves;
+  const auto low = [&](LongVector v) { return hn::BitCast(halves, v); };
+  const auto high = [&](LongVector v) {
+    return hn::BitCast(halves, hn::ShiftRight<32>(hn::BitCast(dul, v)));
+  };
+  const auto cross = hn::Add(hn::MulEven(low(a), high(b)), hn::MulEven(high(a), low(b)));
+  return hn::BitCast(dl, hn::Add(hn::MulEven(low(a), low(b)), hn::ShiftLeft<32>(cross)));
+#endif
 }
 
 struct EdgeConstants {
@@ -82,9 +140,30 @@ HWY_INLINE EdgeConstants edge(DoubleVector x1, DoubleVector y1, DoubleVector x2,
   return {start, hn::Mul(dx, unit), height, hn::Div(hn::Set(df, 1.0), height)};
 }
 
+struct Columns {
+  IntVector first, end;
+};
+
+/// First and end column of one row a lane; rows that a triangle does not meet, and nothing else, may be
+/// wrong.
+HWY_INLINE Columns cross(DoubleVector row, const EdgeConstants& left, const EdgeConstants& right,
+                         const EdgeConstants& middle, DoubleVector middle_left, DoubleVector middle_right,
+                         int width) {
+  const DoubleVector bias = hn::Set(df, k_crossing_bias);
+  const auto crossing = [&](const EdgeConstants& e) {
+    const DoubleVector n = hn::Add(e.start, hn::Mul(e.slope, row));
+    return hn::Ceil(hn::Sub(hn::Mul(n, e.reciprocal), bias));
+  };
+  const DoubleVector at_middle = crossing(middle);
+  const DoubleVector first = hn::Max(crossing(left), hn::Min(at_middle, middle_left));
+  const DoubleVector end = hn::Min(crossing(right), hn::Max(at_middle, middle_right));
+  const DoubleVector low = hn::Zero(df), high = hn::Set(df, static_cast<double>(width));
+  return {hn::DemoteTo(di, hn::Min(hn::Max(first, low), high)),
+          hn::DemoteTo(di, hn::Min(hn::Max(end, low), high))};
+}
+
 /// Sets up entries `lane` .. `lane` + k_lanes - 1 of a block.
-HWY_INLINE void set_up_lanes(const TileTask& task, const TriangleBlock& block, bool numbered, int lane,
-                             SetUp& out) {
+HWY_INLINE void set_up_lanes(const TileTask& task, const Group& block, bool numbered, int lane, SetUp& out) {
   const int bits = task.subpixel_bits;
   const auto ints = [lane](const std::int32_t* p) { return hn::Load(di, p + lane); };
   const IntVector ax = ints(block.x[0]), bx = ints(block.x[1]), cx = ints(block.x[2]);
@@ -98,12 +177,20 @@ HWY_INLINE void set_up_lanes(const TileTask& task, const TriangleBlock& block, b
   const IntVector zero = hn::Zero(di);
   const IntVector tile_x = hn::Set(di, task.x), tile_y = hn::Set(di, task.y);
   const IntVector low_x = hn::Min(ax, hn::Min(bx, cx)), high_x = hn::Max(ax, hn::Max(bx, cx));
-  hn::Store(hn::Max(hn::Sub(at_or_after(ay), tile_y), zero), di, out.first_row + lane);
-  hn::Store(hn::Min(hn::Sub(at_or_after(hn::Max(by, cy)), tile_y), hn::Set(di, task.height)), di,
-            out.end_row + lane);
-  hn::Store(hn::Max(hn::Sub(at_or_after(low_x), tile_x), zero), di, out.first_column + lane);
-  hn::Store(hn::Min(hn::Sub(at_or_after(high_x), tile_x), hn::Set(di, task.width)), di,
-            out.end_column + lane);
+  const IntVector first_row = hn::Max(hn::Sub(at_or_after(ay), tile_y), zero);
+  const IntVector end_row = hn::Min(hn::Sub(at_or_after(hn::Max(by, cy)), tile_y), hn::Set(di, task.height));
+  hn::Store(first_row, di, out.first_row + lane);
+  hn::Store(end_row, di, out.end_row + lane);
+  const IntVector first_column = hn::Max(hn::Sub(at_or_after(low_x), tile_x), zero);
+  const IntVector end_column = hn::Min(hn::Sub(at_or_after(high_x), tile_x), hn::Set(di, task.width));
+  hn::Store(first_column, di, out.first_column + lane);
+  hn::Store(end_column, di, out.end_column + lane);
+  const IntVector rows = hn::Sub(end_row, first_row);
+  const auto is_tiny = hn::And(hn::Lt(rows, hn::Set(di, k_tiny_rows + 1)),
+                               hn::Lt(hn::Sub(end_column, first_column), hn::Set(di, k_tiny_columns + 1)));
+  const IntVector most_rows = hn::MaxOfLanes(di, hn::Max(hn::IfThenElseZero(is_tiny, rows), zero));
+  hn::Store(most_rows, di, out.tiny_rows + lane);
+  const int tiny_rows = hn::GetLane(most_rows);
   hn::Store(hn::Min(az, hn::Min(bz, cz)), di, out.nearest + lane);
 
   // Edges: a-c on the left, a-b on the right, b-c above them.
@@ -113,22 +200,34 @@ HWY_INLINE void set_up_lanes(const TileTask& task, const TriangleBlock& block, b
   const DoubleVector wide_ax = wide(ax), wide_bx = wide(bx), wide_cx = wide(cx);
   const DoubleVector wide_ay = wide(ay), wide_by = wide(by), wide_cy = wide(cy);
   const DoubleVector none = hn::Zero(df), beyond = hn::Set(df, k_beyond), before = hn::Set(df, -k_beyond);
-  const EdgeConstants left = edge(wide_ax, wide_ay, wide_cx, wide_cy, column, row, unit);
-  hn::Store(left.start, df, out.left_start + lane);
-  hn::Store(left.slope, df, out.left_slope + lane);
-  hn::Store(left.reciprocal, df, out.left_reciprocal + lane);
-  const EdgeConstants right = edge(wide_ax, wide_ay, wide_bx, wide_by, column, row, unit);
+  EdgeConstants left = edge(wide_ax, wide_ay, wide_cx, wide_cy, column, row, unit);
+  EdgeConstants right = edge(wide_ax, wide_ay, wide_bx, wide_by, column, row, unit);
   const auto level = hn::Eq(right.height, none);  // bounds nothing then
-  hn::Store(hn::IfThenElse(level, beyond, right.start), df, out.right_start + lane);
-  hn::Store(hn::IfThenElse(level, none, right.slope), df, out.right_slope + lane);
-  hn::Store(hn::IfThenElse(level, hn::Set(df, 1.0), right.reciprocal), df, out.right_reciprocal + lane);
-  const EdgeConstants middle = edge(wide_bx, wide_by, wide_cx, wide_cy, column, row, unit);
-  hn::Store(middle.start, df, out.middle_start + lane);
-  hn::Store(middle.slope, df, out.middle_slope + lane);
-  hn::Store(hn::IfThenElse(hn::Eq(middle.height, none), none, middle.reciprocal), df,
-            out.middle_reciprocal + lane);
-  hn::Store(hn::IfThenElse(hn::Lt(middle.height, none), beyond, before), df, out.middle_left + lane);
-  hn::Store(hn::IfThenElse(hn::Gt(middle.height, none), before, beyond), df, out.middle_right + lane);
+  right.start = hn::IfThenElse(level, beyond, right.start);
+  right.slope = hn::IfThenElse(level, none, right.slope);
+  right.reciprocal = hn::IfThenElse(level, hn::Set(df, 1.0), right.reciprocal);
+  EdgeConstants middle = edge(wide_bx, wide_by, wide_cx, wide_cy, column, row, unit);
+  middle.reciprocal = hn::IfThenElse(hn::Eq(middle.height, none), none, middle.reciprocal);
+  const DoubleVector middle_left = hn::IfThenElse(hn::Lt(middle.height, none), beyond, before);
+  const DoubleVector middle_right = hn::IfThenElse(hn::Gt(middle.height, none), before, beyond);
+  const auto store_edge = [lane](const EdgeConstants& e, double* start, double* slope, double* reciprocal) {
+    hn::Store(e.start, df, start + lane);
+    hn::Store(e.slope, df, slope + lane);
+    hn::Store(e.reciprocal, df, reciprocal + lane);
+  };
+  store_edge(left, out.left_start, out.left_slope, out.left_reciprocal);
+  store_edge(right, out.right_start, out.right_slope, out.right_reciprocal);
+  store_edge(middle, out.middle_start, out.middle_slope, out.middle_reciprocal);
+  hn::Store(middle_left, df, out.middle_left + lane);
+  hn::Store(middle_right, df, out.middle_right + lane);
+  IntVector tiny_first[k_tiny_rows];
+  for (int r = 0; r < tiny_rows; ++r) {
+    const IntVector j = hn::Add(first_row, hn::Set(di, r));
+    const Columns c = cross(wide(j), left, right, middle, middle_left, middle_right, task.width);
+    tiny_first[r] = c.first;
+    hn::Store(c.first, di, out.tiny_first[r] + lane);
+    hn::Store(hn::IfThenElseZero(hn::Lt(j, end_row), c.end), di, out.tiny_end[r] + lane);
+  }
 
   // Planes, operation by operation as in TrianglePlanes.
   const DoubleVector to_bx = hn::Sub(wide_bx, wide_ax), to_by = hn::Sub(wide_by, wide_ay);
@@ -143,8 +242,6 @@ HWY_INLINE void set_up_lanes(const TileTask& task, const TriangleBlock& block, b
   };
   const DoubleVector fraction_x = fraction(ax, pixel_x), fraction_y = fraction(ay, pixel_y);
   const IntVector from_tile_x = hn::Sub(pixel_x, tile_x), from_tile_y = hn::Sub(pixel_y, tile_y);
-  hn::Store(from_tile_x, di, out.pixel_x + lane);
-  hn::Store(from_tile_y, di, out.pixel_y + lane);
   struct Plane {
     LongVector correction, step_x, step_y;
   };
@@ -158,9 +255,19 @@ HWY_INLINE void set_up_lanes(const TileTask& task, const TriangleBlock& block, b
   {
     const Plane p = plane(az, bz, cz);
     const LongVector a = hn::ShiftLeft<k_plane_fraction_bits>(hn::PromoteTo(dl, az));
-    hn::Store(hn::Sub(hn::Add(a, hn::Set(dl, k_plane_half)), p.correction), dl, out.depth + lane);
+    const LongVector at_a = hn::Sub(hn::Add(a, hn::Set(dl, k_plane_half)), p.correction);
+    const auto times = [](LongVector step, IntVector n) { return multiply(step, hn::PromoteTo(dl, n)); };
+    const LongVector at_tile =
+        hn::Sub(at_a, hn::Add(times(p.step_x, from_tile_x), times(p.step_y, from_tile_y)));
+    hn::Store(at_tile, dl, out.depth + lane);
     hn::Store(p.step_x, dl, out.depth_x + lane);
     hn::Store(p.step_y, dl, out.depth_y + lane);
+    LongVector at_row = hn::Add(at_tile, times(p.step_y, first_row));
+    for (int r = 0; r < tiny_rows; ++r) {
+      const LongVector there = hn::Add(at_row, times(p.step_x, tiny_first[r]));
+      hn::Store(hn::ShiftLeft<k_to_upper>(there), dl, out.tiny_depth + k_group * r + lane);
+      at_row = hn::Add(at_row, p.step_y);
+    }
   }
   if (numbered) return;
   const WordVector start_x = hn::BitCast(dw, from_tile_x), start_y = hn::BitCast(dw, from_tile_y);
@@ -181,6 +288,12 @@ HWY_INLINE void set_up_lanes(const TileTask& task, const TriangleBlock& block, b
     hn::Store(at_tile, dw, out.color[channel] + lane);
     hn::Store(step_x, dw, out.color_x[channel] + lane);
     hn::Store(step_y, dw, out.color_y[channel] + lane);
+    WordVector at_row = hn::Add(at_tile, hn::Mul(step_y, hn::BitCast(dw, first_row)));
+    for (int r = 0; r < tiny_rows; ++r) {
+      hn::Store(hn::Add(at_row, hn::Mul(step_x, hn::BitCast(dw, tiny_first[r]))), dw,
+                out.tiny_color[channel] + k_group * r + lane);
+      at_row = hn::Add(at_row, step_y);
+    }
   }
 }
 
@@ -189,191 +302,409 @@ HWY_INLINE IntVector lane_numbers() {
   return hn::Iota(di, 0);
 }
 
-/// v times 0 1 2 .. 7: no vector of 64-bit products is needed.
+/// v times 0 1 2 .. 7, modulo 2^64.
 HWY_INLINE LongVector multiples(std::int64_t v) {
-  const LongVector lane = hn::PromoteTo(dl, lane_numbers());
-  const LongVector one = hn::Set(dl, v);
-  LongVector sum = hn::IfThenElseZero(hn::Ne(hn::And(lane, hn::Set(dl, 1)), hn::Zero(dl)), one);
-  if (k_lanes > 2) {
-    const LongVector two = hn::Add(one, one);
-    sum = hn::Add(sum, hn::IfThenElseZero(hn::Ne(hn::And(lane, hn::Set(dl, 2)), hn::Zero(dl)), two));
-    if (k_lanes > 4) {
-      const LongVector four = hn::Add(two, two);
-      sum = hn::Add(sum, hn::IfThenElseZero(hn::Ne(hn::And(lane, hn::Set(dl, 4)), hn::Zero(dl)), four));
+  return multiply(hn::PromoteTo(dl, lane_numbers()), hn::Set(dl, v));
+}
+
+/// Depths of fixed-point values whose whole part is in the upper half.
+HWY_INLINE IntVector whole(LongVector v) {
+  return hn::BitCast(di, hn::TruncateTo(dw, hn::ShiftRight<32>(hn::BitCast(dul, v))));
+}
+
+struct WideDepths {
+  LongVector part[k_wide_parts];
+};
+
+HWY_INLINE WideIntVector whole(const WideDepths& v) {
+#if HWY_TARGET == HWY_SCALAR
+  return whole(v.part[0]);
+#else
+  return hn::ConcatOdd(dwi, hn::BitCast(dwi, v.part[1]), hn::BitCast(dwi, v.part[0]));
+#endif
+}
+
+/// The first k_lanes.
+HWY_INLINE WordVector low_part(WideWordVector v) {
+#if HWY_TARGET == HWY_SCALAR
+  return v;
+#else
+  return hn::LowerHalf(dw, v);
+#endif
+}
+
+HWY_INLINE std::int64_t to_upper(std::int64_t fixed) {
+  return static_cast<std::int64_t>(static_cast<std::uint64_t>(fixed) << k_to_upper);
+}
+
+template <class D>
+HWY_INLINE hn::Vec<D> pack(D d, hn::Vec<D> r, hn::Vec<D> g, hn::Vec<D> b) {
+  return hn::Or(hn::ShiftRight<24>(r), hn::Or(hn::And(hn::ShiftRight<16>(g), hn::Set(d, 0xFF00u)),
+                                              hn::And(hn::ShiftRight<8>(b), hn::Set(d, 0xFF0000u))));
+}
+
+/// Of rows `row` .. `row` + k_lanes - 1 of triangle i.
+HWY_INLINE Columns cross_rows(const SetUp& s, int i, int row, int width) {
+  const auto load = [i](const double* start, const double* slope, const double* reciprocal) -> EdgeConstants {
+    return {hn::Set(df, start[i]), hn::Set(df, slope[i]), hn::Zero(df), hn::Set(df, reciprocal[i])};
+  };
+  const DoubleVector rows = hn::Add(hn::Iota(df, 0), hn::Set(df, static_cast<double>(row)));
+  return cross(rows, load(s.left_start, s.left_slope, s.left_reciprocal),
+               load(s.right_start, s.right_slope, s.right_reciprocal),
+               load(s.middle_start, s.middle_slope, s.middle_reciprocal), hn::Set(df, s.middle_left[i]),
+               hn::Set(df, s.middle_right[i]), width);
+}
+
+/// Entries of several bins in drawing order.
+class Merger {
+ public:
+  Merger(const Bin* const* bins, int count) {
+    for (int k = 0; k < count; ++k) {
+      if (bins[k]->first != nullptr) cursors_[count_++] = {bins[k]->first, 0, bins[k]};
     }
   }
-  return sum;
-}
 
-/// Depths of fixed-point values.
-HWY_INLINE IntVector whole(LongVector v) {
-  return hn::BitCast(di, hn::TruncateTo(dw, hn::ShiftRight<k_plane_fraction_bits>(hn::BitCast(dul, v))));
-}
+  /// Up to k_group entries; 0 behind the last one.
+  int next(const TriangleEntry** entries) {
+    int n = 0;
+    while (n < k_group && count_ > 0) {
+      // The first of the bins that have the earliest batch, as long as it stays in that batch.
+      int best = 0;
+      for (int k = 1; k < count_; ++k) {
+        if (cursors_[k].entry().batch < cursors_[best].entry().batch) best = k;
+      }
+      Cursor& cursor = cursors_[best];
+      const std::uint32_t batch = cursor.entry().batch;
+      bool ended = false;
+      do {
+        entries[n++] = &cursor.entry();
+        ended = !cursor.step();
+      } while (n < k_group && !ended && (count_ == 1 || cursor.entry().batch == batch));
+      if (ended) {
+        --count_;
+        for (int k = best; k < count_; ++k) cursors_[k] = cursors_[k + 1];
+      }
+    }
+    return n;
+  }
 
-HWY_INLINE WordVector pack(WordVector r, WordVector g, WordVector b) {
-  return hn::Or(hn::ShiftRight<24>(r), hn::Or(hn::And(hn::ShiftRight<16>(g), hn::Set(dw, 0xFF00u)),
-                                              hn::And(hn::ShiftRight<8>(b), hn::Set(dw, 0xFF0000u))));
-}
+ private:
+  struct Cursor {
+    const EntryBlock* block;
+    std::uint32_t i;
+    const Bin* bin;
 
-/// First and end columns of rows `row` .. `row` + k_lanes - 1 of triangle i; rows that it does not meet, and
-/// nothing else, may be wrong.
-HWY_INLINE void cross_rows(const SetUp& s, int i, int row, int width, IntVector& first, IntVector& end) {
-  const DoubleVector j = hn::Add(hn::Iota(df, 0), hn::Set(df, static_cast<double>(row)));
-  const DoubleVector bias = hn::Set(df, k_crossing_bias);
-  const auto crossing = [&](const double* start, const double* slope, const double* reciprocal) {
-    const DoubleVector n = hn::Add(hn::Set(df, start[i]), hn::Mul(hn::Set(df, slope[i]), j));
-    return hn::Ceil(hn::Sub(hn::Mul(n, hn::Set(df, reciprocal[i])), bias));
+    const TriangleEntry& entry() const { return block->entries[i]; }
+    bool step() {
+      if (++i < (block == bin->last ? bin->in_last : k_block)) return true;
+      block = block->next, i = 0;
+      if (block == nullptr) return false;
+      // Chains jump through memory: no hardware sees that coming.
+      if (block->next != nullptr) {
+        for (const TriangleEntry& e : block->next->entries) hwy::Prefetch(&e);
+        hwy::Prefetch(&block->next->next);
+      }
+      return true;
+    }
   };
-  const DoubleVector middle = crossing(s.middle_start, s.middle_slope, s.middle_reciprocal);
-  const DoubleVector left = hn::Max(crossing(s.left_start, s.left_slope, s.left_reciprocal),
-                                    hn::Min(middle, hn::Set(df, s.middle_left[i])));
-  const DoubleVector right = hn::Min(crossing(s.right_start, s.right_slope, s.right_reciprocal),
-                                     hn::Max(middle, hn::Set(df, s.middle_right[i])));
-  const DoubleVector low = hn::Zero(df), high = hn::Set(df, static_cast<double>(width));
-  first = hn::DemoteTo(di, hn::Min(hn::Max(left, low), high));
-  end = hn::DemoteTo(di, hn::Min(hn::Max(right, low), high));
-}
+
+  Cursor cursors_[k_max_bins] = {};
+  int count_ = 0;
+};
 
 /// One triangle after another into a tile.
 template <bool k_numbered>
 class Drawer {
  public:
-  Drawer(const TileTask& task, const SetUp& set_up) : task_(task), s_(set_up) {}
+  explicit Drawer(const TileTask& task) : task_(task) {}
 
-  void draw(int i, std::uint32_t number) {
-    const int first_row = s_.first_row[i], end_row = s_.end_row[i];
-    const int first_column = s_.first_column[i], end_column = s_.end_column[i];
-    if (first_row >= end_row || first_column >= end_column) return;
-    if (is_hidden(i, first_row, end_row, first_column, end_column)) return;
-    number_ = number;
-    if (end_column - first_column <= 8 && end_row - first_row <= 8) {
-      draw_small(i, first_row, end_row);
-    } else {
-      for (int strip = first_row & ~7; strip < end_row; strip += 8) {
-        draw_strip(i, strip, std::max(first_row - strip, 0), std::min(end_row - strip, 8));
-      }
+  void draw(const Bin* const* bins, int count) {
+    Merger merger(bins, count);
+    const TriangleEntry* entries[k_group];
+    for (int n = merger.next(entries); n > 0; n = merger.next(entries)) {
+      if (k_numbered) std::copy_n(entries, n, task_.entries + first_number_);
+      draw_group(entries, n);
+      first_number_ += static_cast<std::uint32_t>(n);
     }
   }
 
  private:
-  bool is_hidden(int i, int first_row, int end_row, int first_column, int end_column) const {
-    const std::int32_t nearest = s_.nearest[i];
-    for (int y = first_row >> 3; y <= (end_row - 1) >> 3; ++y) {
-      for (int x = first_column >> 3; x <= (end_column - 1) >> 3; ++x) {
-        if (nearest < task_.far[k_far_blocks * y + x]) return false;
+  void draw_group(const TriangleEntry* const* entries, int count) {
+    for (int i = 0; i < count; ++i) {
+      const TriangleEntry& e = *entries[i];
+      for (int k = 0; k < 3; ++k) {
+        group_.x[k][i] = e.x[k], group_.y[k][i] = e.y[k], group_.z[k][i] = e.z[k];
+        group_.color[k][i] = e.color[k];
       }
     }
-    return true;
-  }
-
-  /// Fixed-point depth at a sample of the tile.
-  std::uint64_t depth_at(int i, int x, int y) const {
-    return static_cast<std::uint64_t>(s_.depth[i]) +
-           static_cast<std::uint64_t>(std::int64_t{x} - s_.pixel_x[i]) *
-               static_cast<std::uint64_t>(s_.depth_x[i]) +
-           static_cast<std::uint64_t>(std::int64_t{y} - s_.pixel_y[i]) *
-               static_cast<std::uint64_t>(s_.depth_y[i]);
-  }
-  std::uint32_t color_at(int i, int channel, int x, int y) const {
-    return s_.color[channel][i] + static_cast<std::uint32_t>(x) * s_.color_x[channel][i] +
-           static_cast<std::uint32_t>(y) * s_.color_y[channel][i];
-  }
-
-  // At most 8 columns and 8 rows: row by row, from the first covered sample on.
-  void draw_small(int i, int first_row, int end_row) {
-    alignas(64) std::int32_t first[8], end[8];
-    for (int r = 0; r < 8; r += k_lanes) {
-      IntVector f, e;
-      cross_rows(s_, i, first_row + r, task_.width, f, e);
-      hn::Store(f, di, first + r);
-      hn::Store(e, di, end + r);
+    const std::int32_t farthest = farthest_of_tile();
+    for (int lane = 0; lane < count; lane += k_lanes) set_up_lanes(task_, group_, k_numbered, lane, s_);
+    for (int i = 0; i < count; ++i) {
+      if (group_.z[0][i] == k_special) {
+        draw_rows();
+        task_.special(task_.context, *entries[i]);
+        continue;
+      }
+      if (s_.nearest[i] >= farthest) continue;
+      const int rows = s_.end_row[i] - s_.first_row[i], columns = s_.end_column[i] - s_.first_column[i];
+      if (rows <= k_tiny_rows && columns <= k_tiny_columns) {
+        if (rows > 0 && columns > 0) add_tiny(i);
+      } else if (rows > 0 && columns > 0) {
+        draw_rows();
+        draw_strips(i);
+      }
     }
-    const LongVector depths = multiples(s_.depth_x[i]);
-    const WordVector lanes = hn::BitCast(dw, lane_numbers());
-    WordVector steps[3];
+    draw_rows();
+  }
+
+  /// Covered samples of a row of a tiny triangle.
+  struct Row {
+    std::int32_t triangle;
+    std::int32_t slot;    ///< in tiny_depth and tiny_color
+    std::int32_t sample;  ///< of the tile, the first one covered
+    std::int32_t count;
+  };
+  /// What a triangle has at a sample, and how it grows along the lanes; colours unless numbered.
+  struct Lanes {
+    WideDepths depth;
+    WideWordVector color[3];
+  };
+
+  Lanes lanes_of(int i) const {
+    Lanes lanes;
+    const std::int64_t step = to_upper(s_.depth_x[i]);
+    const LongVector first = multiples(step);
+    for (int k = 0; k < k_wide_parts; ++k)
+      lanes.depth.part[k] = hn::Add(first, hn::Set(dl, k * k_lanes * step));
     if (!k_numbered) {
-      for (int c = 0; c < 3; ++c) steps[c] = hn::Mul(lanes, hn::Set(dw, s_.color_x[c][i]));
+      const WideWordVector numbers = hn::Iota(dww, 0);
+      for (int c = 0; c < 3; ++c) lanes.color[c] = hn::Mul(numbers, hn::Set(dww, s_.color_x[c][i]));
     }
-    for (int row = first_row; row < end_row; ++row) {
-      const int x = first[row - first_row], n = end[row - first_row] - x;
-      for (int k = 0; k < n; k += k_lanes) {
-        std::int32_t* const depth = task_.depth + k_tile * row + x + k;
-        const IntVector z =
-            whole(hn::Add(hn::Set(dl, static_cast<std::int64_t>(depth_at(i, x + k, row))), depths));
-        const auto passes =
-            hn::And(hn::Lt(lane_numbers(), hn::Set(di, n - k)), hn::Lt(z, hn::LoadU(di, depth)));
-        if (hn::AllFalse(di, passes)) continue;
-        hn::BlendedStore(z, passes, di, depth);
-        std::uint32_t* const word = task_.word + k_tile * row + x + k;
-        WordVector value;
-        if (k_numbered) {
-          value = hn::Set(dw, number_);
-        } else {
-          const auto channel = [&](int c) {
-            return hn::Add(hn::Set(dw, color_at(i, c, x + k, row)), steps[c]);
-          };
-          value = pack(channel(0), channel(1), channel(2));
-        }
-        hn::BlendedStore(value, hn::RebindMask(dw, passes), dw, word);
-      }
+    return lanes;
+  }
+
+  std::int32_t farthest_of_tile() {
+    refresh_far();
+    IntVector farthest = hn::Set(di, -1);
+    for (int k = 0; k < k_far_blocks * k_far_blocks; k += k_lanes) {
+      farthest = hn::Max(farthest, hn::Load(di, task_.far + k));
+    }
+    return hn::GetLane(hn::MaxOfLanes(di, farthest));
+  }
+
+  // Blocks into which much was drawn row by row: their farthest depth may have come nearer.
+  void refresh_far() {
+    if (changed_ < k_refresh) return;
+    changed_ = 0;
+    for (int b = 0; b < k_far_blocks * k_far_blocks; ++b) {
+      if (drawn_[b] < k_refresh) continue;
+      drawn_[b] = 0;
+      look_up_far(b);
     }
   }
 
-  // Rows strip + first .. strip + end - 1, block by block.
-  void draw_strip(int i, int strip, int first, int end) {
+  void look_up_far(int b) {
+    const std::int32_t* const depth = task_.depth + 8 * k_tile * (b / k_far_blocks) + 8 * (b % k_far_blocks);
+    IntVector farthest = hn::Set(di, -1);
+    for (int r = 0; r < 8; ++r) {
+      for (int k = 0; k < 8; k += k_lanes) {
+        farthest = hn::Max(farthest, hn::Load(di, depth + k_tile * r + k));
+      }
+    }
+    task_.far[b] = hn::GetLane(hn::MaxOfLanes(di, farthest));
+  }
+
+  void has_drawn(int block, int rows) {
+    drawn_[block] += rows;
+    changed_ += rows;
+  }
+
+  // A tiny triangle: notes its rows, without a branch that depends on it.
+  void add_tiny(int i) {
+    const int x = s_.first_column[i], y = s_.first_row[i];
+    const int left = x >> 3, right = (s_.end_column[i] - 1) >> 3, middle = std::min(left + 1, right);
+    const int low = k_far_blocks * (y >> 3), high = k_far_blocks * ((s_.end_row[i] - 1) >> 3);
+    const auto farther = [this](int b, int c) { return std::max(task_.far[b], task_.far[c]); };
+    const std::int32_t farthest =
+        std::max(std::max(farther(low + left, low + middle), farther(high + left, high + middle)),
+                 farther(low + right, high + right));
+    const bool seen = s_.nearest[i] < farthest;
+    has_drawn(low + left, seen ? 2 : 0);
+    int rows = row_count_;
+    for (int r = 0; r < s_.tiny_rows[i]; ++r) {
+      const std::int32_t first = s_.tiny_first[r][i], count = s_.tiny_end[r][i] - first;
+      rows_[rows] = {i, k_group * r + i, k_tile * (y + r) + first, count};
+      rows += static_cast<int>(count > 0) & static_cast<int>(seen);
+    }
+    row_count_ = rows;
+  }
+
+  void draw_rows() {
+    const std::int64_t* const depths = s_.tiny_depth;
+    const int count = row_count_;  // in a register: the loop writes to memory
+    row_count_ = 0;
+    for (int k = 0; k < count; ++k) {
+      const Row& row = rows_[k];
+      const int i = row.triangle;
+      const Lanes lanes = lanes_of(i);
+      const std::uint32_t color[3] = {s_.tiny_color[0][row.slot], s_.tiny_color[1][row.slot],
+                                      s_.tiny_color[2][row.slot]};
+      draw_row<k_tiny_columns>(i, row.sample, row.count, depths[row.slot], color, lanes);
+    }
+  }
+
+  // `count` samples, k_most at most, from one on whose values are given.
+  template <int k_most>
+  HWY_INLINE void draw_row(int i, int sample, int count, std::int64_t depth, const std::uint32_t (&color)[3],
+                           const Lanes& lanes) {
+    for (int x = 0; x < k_most; x += k_wide) {
+      if (k_wide < 8 && x >= count) return;
+      const auto step = static_cast<std::uint32_t>(x);
+      const std::uint32_t there[3] = {color[0] + step * s_.color_x[0][i], color[1] + step * s_.color_x[1][i],
+                                      color[2] + step * s_.color_x[2][i]};
+      draw_vector(i, sample + x, count - x, depth + to_upper(x * s_.depth_x[i]), there, lanes);
+    }
+  }
+
+  // `count` samples, k_wide at most.
+  HWY_INLINE void draw_vector(int i, int sample, int count, std::int64_t depth_there,
+                              const std::uint32_t (&color_there)[3], const Lanes& lanes) {
+    std::int32_t* const depth = task_.depth + sample;
+    WideDepths fixed;
+    for (int k = 0; k < k_wide_parts; ++k) {
+      fixed.part[k] = hn::Add(hn::Set(dl, depth_there), lanes.depth.part[k]);
+    }
+    const WideIntVector z = whole(fixed), before = hn::LoadU(dwi, depth);
+    const auto passes = hn::And(hn::Lt(hn::Iota(dwi, 0), hn::Set(dwi, count)), hn::Lt(z, before));
+    hn::StoreU(hn::IfThenElse(passes, z, before), dwi, depth);
+    WideWordVector value;
+    if (k_numbered) {
+      value = hn::Set(dww, first_number_ + static_cast<std::uint32_t>(i));
+    } else {
+      const auto channel = [&](int c) { return hn::Add(hn::Set(dww, color_there[c]), lanes.color[c]); };
+      value = pack(dww, channel(0), channel(1), channel(2));
+    }
+    std::uint32_t* const word = task_.word + sample;
+    hn::StoreU(hn::IfThenElse(hn::RebindMask(dww, passes), value, hn::LoadU(dww, word)), dww, word);
+  }
+
+  // The triangle is behind all of the 8 x 8 block at (x, y), as far as it can be known in the block.
+  bool is_hidden(int i, int x, int y) const {
+    const std::int64_t step_x = s_.depth_x[i], step_y = s_.depth_y[i];
+    const std::int64_t nearest = s_.depth[i] + x * step_x + y * step_y +
+                                 7 * std::min<std::int64_t>(step_x, 0) +
+                                 7 * std::min<std::int64_t>(step_y, 0);
+    return std::max<std::int64_t>(nearest >> k_plane_fraction_bits, s_.nearest[i]) >=
+           task_.far[k_far_blocks * (y >> 3) + (x >> 3)];
+  }
+
+  void draw_strips(int i) {
+    const int first_row = s_.first_row[i], end_row = s_.end_row[i];
+    const Lanes lanes = lanes_of(i);
+    const int left = s_.first_column[i] & ~7, right = s_.end_column[i];
+    for (int strip = first_row & ~7; strip < end_row; strip += 8) {
+      bool seen = false;
+      for (int x = left; x < right && !seen; x += 8) seen = !is_hidden(i, x, strip);
+      if (!seen) continue;
+      draw_strip(i, strip, std::max(first_row - strip, 0), std::min(end_row - strip, 8), lanes);
+    }
+  }
+
+  // Rows strip + first .. strip + end - 1.
+  HWY_INLINE void draw_strip(int i, int strip, int first, int end, const Lanes& lanes) {
     alignas(64) std::int32_t starts[8], ends[8];
-    int low = k_tile, high = 0;
+    alignas(64) std::int64_t depths[8];
+    alignas(64) std::uint32_t colors[3][8];
+    IntVector low = hn::Set(di, k_tile), high = hn::Zero(di), inner_low = hn::Zero(di), inner_high = low;
+    IntVector widest = hn::Zero(di);
+    const std::int64_t step_x = s_.depth_x[i], step_y = s_.depth_y[i];
+    const std::int64_t depth = s_.depth[i] + strip * step_y;
     for (int r = 0; r < 8; r += k_lanes) {
-      IntVector f, e;
-      cross_rows(s_, i, strip + r, task_.width, f, e);
+      const Columns c = cross_rows(s_, i, strip + r, task_.width);
       const IntVector row = hn::Add(lane_numbers(), hn::Set(di, r));
       const auto inside = hn::And(hn::Gt(row, hn::Set(di, first - 1)), hn::Lt(row, hn::Set(di, end)));
-      const auto covered = hn::And(inside, hn::Lt(f, e));
-      f = hn::IfThenElse(covered, f, hn::Set(di, k_tile));
-      e = hn::IfThenElseZero(covered, e);
+      const auto covered = hn::And(inside, hn::Lt(c.first, c.end));
+      const IntVector f = hn::IfThenElse(covered, c.first, hn::Set(di, k_tile));
+      const IntVector e = hn::IfThenElseZero(covered, c.end);
+      low = hn::Min(low, f), high = hn::Max(high, e);
+      inner_low = hn::Max(inner_low, f), inner_high = hn::Min(inner_high, e);
+      widest = hn::Max(widest, hn::Sub(e, f));
       hn::Store(f, di, starts + r);
       hn::Store(e, di, ends + r);
     }
-    int full_low = 0, full_high = k_tile;
-    for (int r = 0; r < 8; ++r) {
-      low = std::min(low, starts[r]), high = std::max(high, ends[r]);
-      full_low = std::max(full_low, starts[r]), full_high = std::min(full_high, ends[r]);
-    }
-    if (low >= high) return;
-    const std::int64_t step_x = s_.depth_x[i], step_y = s_.depth_y[i];
-    // From the block's first sample to its nearest one.
-    const std::int64_t to_nearest =
-        7 * std::min<std::int64_t>(step_x, 0) + 7 * std::min<std::int64_t>(step_y, 0);
-    std::int64_t at = static_cast<std::int64_t>(depth_at(i, low & ~7, strip));
+    const int left = hn::GetLane(hn::MinOfLanes(di, low)), right = hn::GetLane(hn::MaxOfLanes(di, high));
+    if (left >= right) return;
     std::int32_t* const far = task_.far + k_far_blocks * (strip >> 3);
-    for (int x = low & ~7; x < high; x += 8, at += 8 * step_x) {
-      const auto nearest = static_cast<std::int32_t>((at + to_nearest) >> k_plane_fraction_bits);
-      if (std::max(nearest, s_.nearest[i]) >= far[x >> 3]) continue;
-      if (x >= full_low && x + 8 <= full_high) {
-        draw_block<true>(i, x, strip, at, starts, ends, far[x >> 3]);
+    const int widest_row = hn::GetLane(hn::MaxOfLanes(di, widest));
+    if (widest_row <= k_narrow) {
+      bool any = false;
+      for (int x = left & ~7; x < right; x += 8) {
+        if (is_hidden(i, x, strip)) continue;
+        any = true;
+      }
+      if (!any) return;
+      for (int r = 0; r < 8; r += k_lanes) {
+        const IntVector start = hn::Load(di, starts + r), row = hn::Add(lane_numbers(), hn::Set(di, r));
+        const LongVector there =
+            hn::Add(hn::Set(dl, depth), hn::Add(multiply(hn::PromoteTo(dl, start), hn::Set(dl, step_x)),
+                                                multiply(hn::PromoteTo(dl, row), hn::Set(dl, step_y))));
+        hn::Store(hn::ShiftLeft<k_to_upper>(there), dl, depths + r);
+        for (int c = 0; c < 3 && !k_numbered; ++c) {
+          const std::uint32_t down = s_.color_y[c][i];
+          hn::Store(hn::Add(hn::Set(dw, s_.color[c][i] + static_cast<std::uint32_t>(strip) * down),
+                            hn::Add(hn::Mul(hn::BitCast(dw, start), hn::Set(dw, s_.color_x[c][i])),
+                                    hn::Mul(hn::BitCast(dw, row), hn::Set(dw, down)))),
+                    dw, colors[c] + r);
+        }
+      }
+      // As many vectors for every row of the strip: a branch on each row's width would be guessed wrong too
+      // often.
+      const auto draw_rows_of = [&](auto most) {
+        for (int r = first; r < end; ++r) {
+          const std::uint32_t color[3] = {colors[0][r], colors[1][r], colors[2][r]};
+          draw_row<most()>(i, k_tile * (strip + r) + starts[r], ends[r] - starts[r], depths[r], color, lanes);
+        }
+      };
+      if (widest_row <= k_narrow / 2) {
+        draw_rows_of(std::integral_constant<int, k_narrow / 2>());
       } else {
-        draw_block<false>(i, x, strip, at, starts, ends, far[x >> 3]);
+        draw_rows_of(std::integral_constant<int, k_narrow>());
+      }
+      if (end - first >= k_worth) {
+        for (int x = left & ~7; x < right; x += 8) look_up_far(k_far_blocks * (strip >> 3) + (x >> 3));
+      }
+      return;
+    }
+    const int full_left = hn::GetLane(hn::MaxOfLanes(di, inner_low));
+    const int full_right = hn::GetLane(hn::MinOfLanes(di, inner_high));
+    for (int x = left & ~7; x < right; x += 8) {
+      if (is_hidden(i, x, strip)) continue;
+      const std::int64_t here = depth + step_x * x;
+      if (x >= full_left && x + 8 <= full_right) {
+        draw_block<true>(i, x, strip, here, starts, ends, far[x >> 3], lanes);
+      } else {
+        draw_block<false>(i, x, strip, here, starts, ends, far[x >> 3], lanes);
       }
     }
   }
 
   template <bool k_full>
   void draw_block(int i, int x, int y, std::int64_t at, const std::int32_t* starts, const std::int32_t* ends,
-                  std::int32_t& far) {
+                  std::int32_t& far, const Lanes& lanes) {
     IntVector farthest = hn::Set(di, -1);
     bool any = false;
     for (int k = 0; k < 8; k += k_lanes) {
       std::int32_t* const depth = task_.depth + k_tile * y + x + k;
       std::uint32_t* const word = task_.word + k_tile * y + x + k;
-      LongVector fixed = hn::Add(hn::Set(dl, at + k * s_.depth_x[i]), multiples(s_.depth_x[i]));
-      const LongVector down = hn::Set(dl, s_.depth_y[i]);
+      LongVector fixed = hn::Add(hn::Set(dl, to_upper(at + k * s_.depth_x[i])), lanes.depth.part[0]);
+      const LongVector down = hn::Set(dl, to_upper(s_.depth_y[i]));
       const IntVector column = hn::Add(lane_numbers(), hn::Set(di, x + k));
       WordVector color[3], color_down[3];
       if (!k_numbered) {
-        const WordVector lanes = hn::BitCast(dw, lane_numbers());
         for (int c = 0; c < 3; ++c) {
-          color[c] =
-              hn::Add(hn::Mul(lanes, hn::Set(dw, s_.color_x[c][i])), hn::Set(dw, color_at(i, c, x + k, y)));
+          const std::uint32_t there = s_.color[c][i] + static_cast<std::uint32_t>(x + k) * s_.color_x[c][i] +
+                                      static_cast<std::uint32_t>(y) * s_.color_y[c][i];
+          color[c] = hn::Add(low_part(lanes.color[c]), hn::Set(dw, there));
           color_down[c] = hn::Set(dw, s_.color_y[c][i]);
         }
       }
@@ -390,7 +721,8 @@ class Drawer {
         if (!hn::AllFalse(di, passes)) {
           any = true;
           hn::Store(after, di, depth + k_tile * r);
-          const WordVector value = k_numbered ? hn::Set(dw, number_) : pack(color[0], color[1], color[2]);
+          const WordVector value = k_numbered ? hn::Set(dw, first_number_ + static_cast<std::uint32_t>(i))
+                                              : pack(dw, color[0], color[1], color[2]);
           hn::BlendedStore(value, hn::RebindMask(dw, passes), dw, word + k_tile * r);
         }
         fixed = hn::Add(fixed, down);
@@ -402,44 +734,28 @@ class Drawer {
     if (any) far = hn::GetLane(hn::MaxOfLanes(di, farthest));
   }
 
+  /// Rows drawn into a block until its farthest depth is looked up again.
+  static constexpr int k_refresh = 16;
+  /// Rows of a strip that are likely to bring a block's farthest depth nearer.
+  static constexpr int k_worth = 4;
+  /// Strips whose rows are no wider are drawn row by row, others in blocks of 8 x 8.
+  static constexpr int k_narrow = 16;
+
   const TileTask& task_;
-  const SetUp& s_;
-  std::uint32_t number_ = 0;
+  Group group_ = {};
+  SetUp s_;
+  std::uint32_t first_number_ = 0;
+  Row rows_[k_tiny_rows * k_group + 1];
+  int row_count_ = 0;
+  int drawn_[k_far_blocks * k_far_blocks] = {};
+  int changed_ = 0;
 };
 
-std::int32_t farthest_of_tile(const TileTask& task) {
-  IntVector farthest = hn::Set(di, -1);
-  for (int k = 0; k < k_far_blocks * k_far_blocks; k += k_lanes) {
-    farthest = hn::Max(farthest, hn::Load(di, task.far + k));
-  }
-  return hn::GetLane(hn::MaxOfLanes(di, farthest));
-}
-
-template <bool k_numbered>
-void draw_chain(const TileTask& task, const Bin& bin, std::uint32_t number) {
-  SetUp set_up;
-  Drawer<k_numbered> drawer(task, set_up);
-  for (const TriangleBlock* block = bin.first; block != nullptr; block = block->next) {
-    const int count = static_cast<int>(block->next == nullptr ? bin.in_last : k_block);
-    const std::int32_t farthest = farthest_of_tile(task);
-    for (int lane = 0; lane < count; lane += k_lanes) {
-      set_up_lanes(task, *block, k_numbered, lane, set_up);
-    }
-    for (int i = 0; i < count; ++i, ++number) {
-      if (block->z[0][i] == k_special) {
-        task.special(task.context, block->source[i]);
-      } else if (set_up.nearest[i] < farthest) {
-        drawer.draw(i, number);
-      }
-    }
-  }
-}
-
-void draw_bin_here(const TileTask& task, const Bin& bin, std::uint32_t first_number) {
+void draw_bins_here(const TileTask& task, const Bin* const* bins, int count) {
   if (task.numbered) {
-    draw_chain<true>(task, bin, first_number);
+    Drawer<true>(task).draw(bins, count);
   } else {
-    draw_chain<false>(task, bin, first_number);
+    Drawer<false>(task).draw(bins, count);
   }
 }
 
@@ -486,15 +802,15 @@ HWY_AFTER_NAMESPACE();
 namespace farop::tiled {
 
 HWY_EXPORT(clear_tile_here);
-HWY_EXPORT(draw_bin_here);
+HWY_EXPORT(draw_bins_here);
 HWY_EXPORT(words_to_rgb_here);
 
 void clear_tile(const TileTask& task, std::uint32_t word) {
   HWY_DYNAMIC_DISPATCH(clear_tile_here)(task, word);
 }
 
-void draw_bin(const TileTask& task, const Bin& bin, std::uint32_t first_number) {
-  HWY_DYNAMIC_DISPATCH(draw_bin_here)(task, bin, first_number);
+void draw_bins(const TileTask& task, const Bin* const* bins, int count) {
+  HWY_DYNAMIC_DISPATCH(draw_bins_here)(task, bins, count);
 }
 
 void words_to_rgb(const std::uint32_t* words, int count, std::uint8_t* rgb) {

@@ -20,8 +20,10 @@ namespace farop::tiled {
 /// Side of the largest tile, and samples from row to row in all of them.
 constexpr int k_tile = 64;
 /// Samples behind the last row that are read, never written.
-constexpr int k_tile_padding = 16;
+constexpr int k_tile_padding = 64;
 constexpr int k_far_blocks = k_tile / 8;
+/// Bins that can be drawn together.
+constexpr int k_max_bins = 8;
 
 /// A tile and what is drawn into it. Arrays have k_tile * k_tile + k_tile_padding samples.
 struct TileTask {
@@ -30,20 +32,21 @@ struct TileTask {
   int subpixel_bits = 0;
   std::int32_t empty_depth = 0;
   std::int32_t* depth = nullptr;  ///< 64-byte aligned
-  /// Colours, red lowest, of the nearest opaque triangles; or with `numbered` their numbers: entries count
-  /// from `first_number` on.
+  /// Colours, red lowest, of the nearest opaque triangles; or with `numbered` their numbers: their places in
+  /// drawing order, from 0.
   std::uint32_t* word = nullptr;
   std::int32_t* far = nullptr;  ///< k_far_blocks^2: no depth in the 8 x 8 block is farther
   bool numbered = false;
+  const TriangleEntry** entries = nullptr;  ///< numbered: gets the entry of every number
   /// Draws the polygon that an entry stands for, into depth and word.
-  void (*special)(void* context, std::uint32_t polygon) = nullptr;
+  void (*special)(void* context, const TriangleEntry& entry) = nullptr;
   void* context = nullptr;
 };
 
 /// Empties the tile: `empty_depth`, and below every depth outside the frame; word everywhere.
 void clear_tile(const TileTask& task, std::uint32_t word);
-/// Draws a chain of `count` blocks; the last has `in_last` entries.
-void draw_bin(const TileTask& task, const Bin& bin, std::uint32_t first_number);
+/// Draws the entries of `count` bins, in the order of their batches and within a batch bin after bin.
+void draw_bins(const TileTask& task, const Bin* const* bins, int count);
 /// `count` words as bytes r g b.
 void words_to_rgb(const std::uint32_t* words, int count, std::uint8_t* rgb);
 

@@ -52,24 +52,71 @@ void KeptPolygons::clear() {
   normals.clear(), eye_positions.clear(), textures.clear(), opacities.clear();
 }
 
-void Portion::start(const TileGrid& grid, DrawMode mode, int color_resolution) {
+void Portion::start(const TileGrid& grid, DrawMode mode, int color_resolution, std::uint32_t number) {
+  number_ = number;
   grid_ = &grid;
   mode_ = mode;
   color_resolution_ = color_resolution;
   pool_.take_all_back();
   bins_.assign(static_cast<std::size_t>(grid.count()), {});
   kept_.clear();
-  has_transparent_ = has_shaders_ = false;
+  kept_bytes_ = 0;
+  has_shaders_ = false;
   last_look_ = {}, last_opaque_ = true, last_invisible_ = false;
 }
 
-std::size_t Portion::add(const ScreenPolygonBatch& batch, std::size_t first, std::size_t end,
-                         std::size_t byte_limit) {
+std::size_t Portion::add(const ScreenPolygonBatch& batch, std::uint32_t number, std::size_t first,
+                         std::size_t end, std::size_t byte_limit) {
+  batch_ = number;
   for (std::size_t i = first; i < end; ++i) {
     if (bytes() > byte_limit) return i;
-    add_polygon(batch, batch.polygons[i]);
+    const ScreenPolygonRecord& record = batch.polygons[i];
+    if (!add_simple_triangle(batch, record)) add_polygon(batch, record);
   }
   return end;
+}
+
+// The triangle that most are; false, and nothing happens, for all others.
+bool Portion::add_simple_triangle(const ScreenPolygonBatch& batch, const ScreenPolygonRecord& record) {
+  if (record.vertex_count != 3 || mode_ == DrawMode::phong || color_resolution_ != 256) return false;
+  if (record.material != last_look_.material || record.shader != last_look_.shader) return false;
+  if (!last_opaque_) return false;
+  const ScreenVertex* const v = batch.vertices.data() + record.first_vertex;
+  if ((v[0].r | v[0].g | v[0].b | v[1].r | v[1].g | v[1].b | v[2].r | v[2].g | v[2].b) > 255) return false;
+  constexpr std::int32_t k_limit = 1 << k_plane_coordinate_bits;
+  const auto is_small = [](const ScreenVertex& c) {
+    return static_cast<std::uint32_t>(c.x + k_limit) < 2u * k_limit &&
+           static_cast<std::uint32_t>(c.y + k_limit) < 2u * k_limit;
+  };
+  if (!is_small(v[0]) || !is_small(v[1]) || !is_small(v[2])) return false;
+  std::int64_t area = doubled_area(v[0], v[1], v[2]);
+  if (area == 0) return true;  // covers nothing
+  // Turns corners until the lowest, then leftmost comes first; then the others counter-clockwise.
+  const auto key = [](const ScreenVertex& c) { return (std::int64_t{c.y} << 32) + c.x; };
+  const std::int64_t k0 = key(v[0]), k1 = key(v[1]), k2 = key(v[2]);
+  const unsigned a = k0 < k1 ? (k0 < k2 ? 0 : 2) : (k1 < k2 ? 1 : 2);
+  constexpr unsigned k_next[] = {1, 2, 0, 1};
+  const unsigned b = k_next[area > 0 ? a : a + 1], c = k_next[area > 0 ? a + 1 : a];
+  area = area < 0 ? -area : area;
+  const std::int32_t low_x = std::min(std::min(v[0].x, v[1].x), v[2].x);
+  const std::int32_t high_x = std::max(std::max(v[0].x, v[1].x), v[2].x);
+  const std::int32_t low_y = v[a].y, high_y = std::max(v[b].y, v[c].y);
+  const int bits = grid_->subpixel_bits, up = (1 << bits) - 1;
+  const Samples samples = {std::max((low_x + up) >> bits, 0), std::min((high_x + up) >> bits, grid_->width),
+                           std::max((low_y + up) >> bits, 0), std::min((high_y + up) >> bits, grid_->height)};
+  if (samples.empty()) return true;
+  if (!is_surely_plane_triangle(v[0].z, v[1].z, v[2].z, std::max(high_x - low_x, high_y - low_y), area,
+                                bits)) {
+    return false;
+  }
+  const Triangle t{v[a], v[b], v[c]};
+  const auto word = [](const ScreenVertex& k) {
+    return std::uint32_t{k.r} | std::uint32_t{k.g} << 8 | std::uint32_t{k.b} << 16;
+  };
+  TrianglePayload payload{{word(t.a), word(t.b), word(t.c)}, 0};
+  if (mode_ == DrawMode::flat) payload.color[0] = payload.color[1] = payload.color[2] = word(v[0]);
+  add_to_tiles(t, payload, samples);
+  return true;
 }
 
 void Portion::add_polygon(const ScreenPolygonBatch& batch, const ScreenPolygonRecord& record) {
@@ -88,7 +135,6 @@ void Portion::add_polygon(const ScreenPolygonBatch& batch, const ScreenPolygonRe
       all_corners_.resize(corners.size());
       std::iota(all_corners_.begin(), all_corners_.end(), 0u);
     }
-    has_transparent_ = has_transparent_ || !last_opaque_;
     add_special(batch, record, part(all_corners_, 0, corners.size()));
     return;
   }
@@ -125,12 +171,12 @@ std::uint32_t Portion::color_word(const ScreenVertex& v) const {
          std::uint32_t{to_8_bits(v.b, color_resolution_)} << 16;
 }
 
-Portion::Samples Portion::samples_of(std::int32_t low_x, std::int32_t high_x, std::int32_t low_y,
-                                     std::int32_t high_y) const {
+inline Portion::Samples Portion::samples_of(std::int32_t low_x, std::int32_t high_x, std::int32_t low_y,
+                                            std::int32_t high_y) const {
   const int bits = grid_->subpixel_bits;
   const auto sample = [bits](std::int32_t v, int size) {
     const std::int64_t at_or_after = -(-std::int64_t{v} >> bits);
-    return static_cast<int>(std::clamp<std::int64_t>(at_or_after, 0, size));
+    return static_cast<int>(std::min<std::int64_t>(std::max<std::int64_t>(at_or_after, 0), size));
   };
   return {sample(low_x, grid_->width), sample(high_x, grid_->width), sample(low_y, grid_->height),
           sample(high_y, grid_->height)};
@@ -144,33 +190,47 @@ void Portion::for_each_tile(const Samples& samples, const Add& add) {
   const int first_y = of(samples.first_row), last_y = of(samples.end_row - 1);
   for (int y = first_y; y <= last_y; ++y) {
     for (int x = first_x; x <= last_x; ++x) {
-      add(bins_[static_cast<std::size_t>(y * grid_->columns + x)], x, y,
-          first_x == last_x || first_y == last_y);
+      add(bins_[static_cast<std::size_t>(y) * static_cast<std::size_t>(grid_->columns) +
+                static_cast<std::size_t>(x)],
+          x, y, first_x == last_x || first_y == last_y);
     }
   }
+}
+
+inline Portion::Samples Portion::samples_of(const Triangle& t) const {
+  return samples_of(std::min({t.a.x, t.b.x, t.c.x}), std::max({t.a.x, t.b.x, t.c.x}), t.a.y,
+                    std::max(t.b.y, t.c.y));
 }
 
 void Portion::add_triangle(const ScreenPolygonBatch& batch, const ScreenPolygonRecord& record,
                            const Triangle& t, const TrianglePayload& payload,
                            const std::uint32_t (&numbers)[3]) {
-  const Samples samples = samples_of(std::min({t.a.x, t.b.x, t.c.x}), std::max({t.a.x, t.b.x, t.c.x}), t.a.y,
-                                     std::max(t.b.y, t.c.y));
+  const Samples samples = samples_of(t);
   if (samples.empty()) return;
-  if (!is_plane_triangle(t, grid_->subpixel_bits)) {
+  if (is_plane_triangle(t, grid_->subpixel_bits)) {
+    add_to_tiles(t, payload, samples);
+  } else {
     add_special(batch, record, numbers);
-    return;
   }
+}
+
+void Portion::add_to_tiles(const Triangle& t, const TrianglePayload& payload, const Samples& samples) {
   const int side = grid_->side, bits = grid_->subpixel_bits;
   for_each_tile(samples, [&](Bin& bin, int x, int y, bool in_line) {
     if (!in_line) {
-      const std::int64_t low_x = std::int64_t{x * side} << bits, low_y = std::int64_t{y * side} << bits;
+      const std::int64_t low_x = (std::int64_t{x} * side) << bits, low_y = (std::int64_t{y} * side) << bits;
       const std::int64_t reach = std::int64_t{side - 1} << bits;
       const auto misses = [&](const ScreenVertex& a, const ScreenVertex& b) {
         return best_of(a, b, low_x, low_x + reach, low_y, low_y + reach) < 0;
       };
       if (misses(t.a, t.b) || misses(t.b, t.c) || misses(t.c, t.a)) return;
     }
-    bin.add(pool_, t, payload);
+    TriangleEntry& e = bin.add(pool_);
+    e.x[0] = t.a.x, e.x[1] = t.b.x, e.x[2] = t.c.x;
+    e.y[0] = t.a.y, e.y[1] = t.b.y, e.y[2] = t.c.y;
+    e.z[0] = t.a.z, e.z[1] = t.b.z, e.z[2] = t.c.z;
+    e.color[0] = payload.color[0], e.color[1] = payload.color[1], e.color[2] = payload.color[2];
+    e.source = payload.source, e.batch = batch_, e.portion = number_;
   });
 }
 
@@ -185,7 +245,13 @@ void Portion::add_special(const ScreenPolygonBatch& batch, const ScreenPolygonRe
   const Samples samples = samples_of(low_x, high_x, low_y, high_y);
   if (samples.empty()) return;
   const std::uint32_t number = keep(batch, record, numbers);
-  for_each_tile(samples, [&](Bin& bin, int, int, bool) { bin.add_special(pool_, number); });
+  for_each_tile(samples, [&](Bin& bin, int, int, bool) {
+    TriangleEntry& e = bin.add(pool_);
+    e = {};
+    e.z[0] = k_special;
+    e.source = number, e.batch = batch_, e.portion = number_;
+    bin.has_transparent = bin.has_transparent || !last_opaque_;
+  });
 }
 
 std::uint32_t Portion::keep(const ScreenPolygonBatch& batch, const ScreenPolygonRecord& record,
@@ -212,6 +278,7 @@ std::uint32_t Portion::keep(const ScreenPolygonBatch& batch, const ScreenPolygon
   }
   if (!batch.opacities.empty()) polygon.first_opacity = copy(batch.opacities, kept_.opacities);
   kept_.polygons.push_back(polygon);
+  kept_bytes_ = kept_.bytes();
   return static_cast<std::uint32_t>(kept_.polygons.size() - 1);
 }
 

@@ -34,20 +34,25 @@ struct KeptPolygons {
   void clear();
 };
 
+/// What a triangle has beside its place.
+struct TrianglePayload {
+  std::uint32_t color[3] = {0, 0, 0};
+  std::uint32_t source = 0;
+};
+
 /// Filled by one thread, read by all when tiles are drawn.
 class Portion {
  public:
   /// Empty, for a new frame or after what it had was drawn. `color_resolution` is the frame's.
-  void start(const TileGrid& grid, DrawMode mode, int color_resolution);
-  /// Takes polygons `first` .. `end` - 1; stops when more than `byte_limit` bytes are in use. Returns the
-  /// first polygon not taken.
-  std::size_t add(const ScreenPolygonBatch& batch, std::size_t first, std::size_t end,
+  void start(const TileGrid& grid, DrawMode mode, int color_resolution, std::uint32_t number);
+  /// Takes polygons `first` .. `end` - 1 of the frame's batch `number`; stops when more than `byte_limit`
+  /// bytes are in use. Returns the first polygon not taken.
+  std::size_t add(const ScreenPolygonBatch& batch, std::uint32_t number, std::size_t first, std::size_t end,
                   std::size_t byte_limit);
 
   const Bin& bin(int tile) const { return bins_[static_cast<std::size_t>(tile)]; }
   const KeptPolygons& kept() const { return kept_; }
-  std::size_t bytes() const { return pool_.used_bytes() + kept_.bytes(); }
-  bool has_transparent() const { return has_transparent_; }
+  std::size_t bytes() const { return pool_.used_bytes() + kept_bytes_; }
   bool has_shaders() const { return has_shaders_; }
 
  private:
@@ -56,7 +61,9 @@ class Portion {
     bool empty() const { return first_column >= end_column || first_row >= end_row; }
   };
 
+  bool add_simple_triangle(const ScreenPolygonBatch& batch, const ScreenPolygonRecord& record);
   void add_polygon(const ScreenPolygonBatch& batch, const ScreenPolygonRecord& record);
+  void add_to_tiles(const Triangle& t, const TrianglePayload& payload, const Samples& samples);
   void add_triangle(const ScreenPolygonBatch& batch, const ScreenPolygonRecord& record, const Triangle& t,
                     const TrianglePayload& payload, const std::uint32_t (&numbers)[3]);
   void add_special(const ScreenPolygonBatch& batch, const ScreenPolygonRecord& record,
@@ -64,6 +71,7 @@ class Portion {
   std::uint32_t keep(const ScreenPolygonBatch& batch, const ScreenPolygonRecord& record,
                      std::span<const std::uint32_t> numbers);
   Samples samples_of(std::int32_t low_x, std::int32_t high_x, std::int32_t low_y, std::int32_t high_y) const;
+  Samples samples_of(const Triangle& t) const;
   template <class Add>
   void for_each_tile(const Samples& samples, const Add& add);
   std::uint32_t color_word(const ScreenVertex& v) const;
@@ -74,7 +82,9 @@ class Portion {
   BlockPool pool_;
   std::vector<Bin> bins_;
   KeptPolygons kept_;
-  bool has_transparent_ = false, has_shaders_ = false;
+  std::size_t kept_bytes_ = 0;
+  std::uint32_t number_ = 0, batch_ = 0;
+  bool has_shaders_ = false;
   SurfaceLook last_look_;  ///< polygons of a surface come in a row
   bool last_opaque_ = true, last_invisible_ = false;
   std::vector<std::uint32_t> all_corners_;  ///< 0, 1, 2 ...

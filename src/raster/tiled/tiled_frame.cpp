@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <optional>
 
 #include "raster/corner_color.h"
@@ -21,8 +22,12 @@
 namespace farop::tiled {
 namespace {
 
-/// Polygons that are worth a task of their own.
-constexpr std::size_t k_parallel_batch = 8192;
+/// Polygons that are worth sorting in parallel.
+constexpr std::size_t k_parallel_polygons = 512;
+
+/// Samples from which on a frame may have a byte of waiting triangles each: an entry a tile alone takes a
+/// quarter of that, and to keep all tiles would take twenty times as much.
+constexpr std::int64_t k_large_frame = std::int64_t{1} << 26, k_most_room = std::int64_t{1} << 31;
 
 V3f color_of(std::uint32_t word) {
   return V3f(static_cast<float>(word & 255u), static_cast<float>(word >> 8 & 255u),
@@ -37,9 +42,8 @@ struct Tile {
   SampleArray<std::int32_t> far;
   RasterCounts counts;
   TileTask task;
-  std::optional<PolygonFiller> filler;       ///< once something special was drawn
-  std::vector<const TriangleBlock*> blocks;  ///< triangle `number` is entry number % k_block of one of them
-  std::vector<const KeptPolygons*> kept;     ///< parallel to blocks
+  std::optional<PolygonFiller> filler;        ///< once something special was drawn
+  std::vector<const TriangleEntry*> entries;  ///< by number
 };
 
 /// Threads, and a tile for each.
@@ -81,84 +85,75 @@ TiledFrame::~TiledFrame() = default;
 
 void TiledFrame::start(const ScreenFrame& frame, const FrameLook& look) {
   frame_ = frame, look_ = look;
-  const int side = std::clamp(tuning_.tile_size, 8, k_tile);
+  const std::int64_t samples = std::int64_t{frame.resolution.x} * frame.resolution.y;
+  const bool large = samples > k_large_frame;
+  const int side = large ? k_tile : std::clamp(tuning_.tile_size, 8, k_tile);
   grid_ = TileGrid(frame, std::max(side / look.samples, 1) * look.samples);
-  in_use_ = 0;
-  can_append_ = false;
+  room_ = tuning_.waiting_bytes;
+  if (large) room_ = std::max(room_, static_cast<std::size_t>(std::min(samples, k_most_room)));
   drawn_.clear();
+  start_portions();
 }
 
-Portion& TiledFrame::new_portion() {
-  if (in_use_ == portions_.size()) portions_.push_back(std::make_unique<Portion>());
-  Portion& portion = *portions_[in_use_++];
-  portion.start(grid_, look_.mode, frame_.resolution.color);
-  return portion;
+void TiledFrame::start_portions() {
+  const auto count = static_cast<std::size_t>(std::min(workers_->threads(), k_max_bins));
+  while (portions_.size() < count) portions_.push_back(std::make_unique<Portion>());
+  for (std::size_t i = 0; i < count; ++i) {
+    portions_[i]->start(grid_, look_.mode, frame_.resolution.color, static_cast<std::uint32_t>(i));
+  }
+  batches_ = 0;
 }
 
 std::size_t TiledFrame::waiting_bytes() const {
   std::size_t bytes = 0;
-  for (std::size_t i = 0; i < in_use_; ++i) bytes += portions_[i]->bytes();
+  for (const std::unique_ptr<Portion>& portion : portions_) bytes += portion->bytes();
   return bytes;
 }
 
 void TiledFrame::add(const ScreenPolygonBatch& batch) {
   const std::size_t count = batch.polygons.size();
-  if (workers_->threads() > 1 && count >= 2 * k_parallel_batch) {
-    add_in_parallel(batch);
-    return;
-  }
-  std::size_t next = 0;
-  while (next < count) {
-    if (!can_append_) new_portion(), can_append_ = true;
-    Portion& portion = *portions_[in_use_ - 1];
-    const std::size_t others = waiting_bytes() - portion.bytes();
-    next = portion.add(batch, next, count, tuning_.waiting_bytes - std::min(others, tuning_.waiting_bytes));
-    if (next < count) draw_waiting(nullptr);
+  for (std::size_t next = 0; next < count;) {
+    next = add_some(batch, next);
+    if (waiting_bytes() > room_) draw_waiting(nullptr);
   }
 }
 
-void TiledFrame::add_in_parallel(const ScreenPolygonBatch& batch) {
-  const std::size_t count = batch.polygons.size();
-  std::size_t next = 0;
-  while (next < count) {
-    // Shares of equal size; what a share has no room for is taken up again after drawing.
-    const auto shares = std::min<std::size_t>(static_cast<std::size_t>(workers_->threads()),
-                                              (count - next + k_parallel_batch - 1) / k_parallel_batch);
-    const std::size_t first_portion = in_use_, share = (count - next + shares - 1) / shares;
-    const std::size_t waiting = waiting_bytes();
-    const std::size_t room = (tuning_.waiting_bytes - std::min(waiting, tuning_.waiting_bytes)) / shares;
-    for (std::size_t k = 0; k < shares; ++k) new_portion();
-    can_append_ = false;
-    std::vector<std::size_t> stopped(shares);
-    workers_->run(static_cast<int>(shares), false, [&](int k) {
-      const auto number = static_cast<std::size_t>(k);
-      const std::size_t first = std::min(next + number * share, count), end = std::min(first + share, count);
-      stopped[number] = portions_[first_portion + number]->add(batch, first, end, room);
-    });
-    for (std::size_t k = 0; k < shares; ++k) {
-      const std::size_t end = std::min(next + (k + 1) * share, count);
-      if (stopped[k] == end) continue;
-      // Later shares must wait until this one is complete: they are taken again.
-      in_use_ = first_portion + k + 1;
-      draw_waiting(nullptr);
-      next = stopped[k];
-      break;
-    }
-    if (in_use_ != 0) next = count;
+// Takes polygons from `next` on until all are taken or there is no room for more; returns the first not
+// taken.
+std::size_t TiledFrame::add_some(const ScreenPolygonBatch& batch, std::size_t next) {
+  const std::size_t left = batch.polygons.size() - next, shares = portions_.size();
+  const std::uint32_t number = batches_++;
+  // In parallel as many as cannot take more than half of the memory, whatever they cover.
+  const std::size_t safe = room_ / 2 / (sizeof(TriangleEntry) * static_cast<std::size_t>(grid_.count()));
+  if (shares == 1 || std::min(left, safe) < k_parallel_polygons) {
+    const std::size_t others = waiting_bytes() - portions_[0]->bytes();
+    const std::size_t room = room_ - std::min(others, room_);
+    return portions_[0]->add(batch, number, next, batch.polygons.size(), room);
   }
+  const std::size_t taken = std::min(left, safe), share = (taken + shares - 1) / shares;
+  workers_->run(static_cast<int>(shares), false, [&](int k) {
+    const std::size_t first = std::min(static_cast<std::size_t>(k) * share, taken);
+    const std::size_t end = std::min(first + share, taken);
+    portions_[static_cast<std::size_t>(k)]->add(batch, number, next + first, next + end,
+                                                std::numeric_limits<std::size_t>::max());
+  });
+  return next + taken;
 }
 
 void TiledFrame::draw_waiting(Framebuffer* picture) {
-  bool shaders = false, transparent = false;
-  for (std::size_t i = 0; i < in_use_; ++i) {
-    shaders = shaders || portions_[i]->has_shaders();
-    transparent = transparent || portions_[i]->has_transparent();
+  bool shaders = false;
+  for (const std::unique_ptr<Portion>& portion : portions_) {
+    shaders = shaders || portion->has_shaders();
   }
   const bool early = picture == nullptr;
-  const bool numbered = look_.mode == DrawMode::phong || transparent || early || !drawn_.empty();
   if (early && drawn_.empty()) drawn_.resize(static_cast<std::size_t>(grid_.count()));
   const bool alone = shaders && look_.mode == DrawMode::phong;  // shaders want to be called from one thread
   workers_->run(grid_.count(), alone, [&](int number) {
+    if (drawn_.empty() && is_empty(number)) {
+      write_background(number, *picture);
+      return;
+    }
+    const bool numbered = look_.mode == DrawMode::phong || !drawn_.empty() || has_transparent(number);
     Tile* tile = &workers_->tile();
     bool begun = false;
     if (!drawn_.empty()) {
@@ -171,8 +166,34 @@ void TiledFrame::draw_waiting(Framebuffer* picture) {
     draw_tile(*tile, numbered);
     if (!early) write_tile(*tile, numbered, *picture);
   });
-  in_use_ = 0;
-  can_append_ = false;
+  if (early) start_portions();
+}
+
+bool TiledFrame::is_empty(int number) const {
+  for (const std::unique_ptr<Portion>& portion : portions_) {
+    if (portion->bin(number).size != 0) return false;
+  }
+  return true;
+}
+
+bool TiledFrame::has_transparent(int number) const {
+  for (const std::unique_ptr<Portion>& portion : portions_) {
+    if (portion->bin(number).has_transparent) return true;
+  }
+  return false;
+}
+
+void TiledFrame::write_background(int number, Framebuffer& picture) const {
+  const Window w = grid_.window(number);
+  const int first = w.x / look_.samples, end = w.end_x / look_.samples;
+  std::array<std::uint32_t, k_tile> words;
+  words.fill(look_.background);
+  for (int y = w.y / look_.samples; y < w.end_y / look_.samples; ++y) {
+    const std::size_t pixel = picture.pixel(first, y);
+    words_to_rgb(words.data(), end - first, &picture.rgb[3 * pixel]);
+    if (picture.depth.empty()) continue;
+    std::fill_n(&picture.depth[pixel], end - first, static_cast<float>(frame_.resolution.z));
+  }
 }
 
 void TiledFrame::finish(Framebuffer& picture) {
@@ -214,28 +235,24 @@ void TiledFrame::draw_tile(Tile& tile, bool numbered) const {
   struct Special {
     Tile& tile;
     const TiledFrame& frame;
-    const KeptPolygons* kept;
-  } special{tile, *this, nullptr};
+  } special{tile, *this};
   tile.task.context = &special;
-  tile.task.special = [](void* context, std::uint32_t polygon) {
-    auto& [t, frame, kept] = *static_cast<Special*>(context);
+  tile.task.special = [](void* context, const TriangleEntry& entry) {
+    auto& [t, frame] = *static_cast<Special*>(context);
     if (!t.filler) t.filler.emplace(frame.frame_, t.buffer, *frame.look_.shading, t.counts);
-    t.filler->fill((*kept)[polygon]);
+    t.filler->fill(frame.portions_[entry.portion]->kept()[entry.source]);
   };
-  tile.blocks.clear(), tile.kept.clear();
   const int number = grid_.tile_of[static_cast<std::size_t>(tile.buffer.window.y)] * grid_.columns +
                      grid_.tile_of[static_cast<std::size_t>(tile.buffer.window.x)];
-  for (std::size_t i = 0; i < in_use_; ++i) {
-    const Bin& bin = portions_[i]->bin(number);
-    if (bin.first == nullptr) continue;
-    special.kept = &portions_[i]->kept();
-    draw_bin(tile.task, bin, static_cast<std::uint32_t>(tile.blocks.size()) * k_block);
-    if (!numbered) continue;
-    for (const TriangleBlock* block = bin.first; block != nullptr; block = block->next) {
-      tile.blocks.push_back(block);
-      tile.kept.push_back(special.kept);
-    }
+  std::array<const Bin*, k_max_bins> bins{};
+  std::size_t size = 0;
+  for (std::size_t i = 0; i < portions_.size(); ++i) {
+    bins[i] = &portions_[i]->bin(number);
+    size += bins[i]->size;
   }
+  if (numbered) tile.entries.resize(size);
+  tile.task.entries = tile.entries.data();
+  draw_bins(tile.task, bins.data(), static_cast<int>(portions_.size()));
   if (numbered) find_values(tile);
 }
 
@@ -259,28 +276,27 @@ void TiledFrame::find_values(Tile& tile) const {
       if (number == k_valued) continue;
       if (number != last) {
         last = number;
-        const TriangleBlock& block = *tile.blocks[number / k_block];
-        const std::uint32_t i = number % k_block;
-        kept = tile.kept[number / k_block];
-        t.a = {block.x[0][i], block.y[0][i], block.z[0][i]};
-        t.b = {block.x[1][i], block.y[1][i], block.z[1][i]};
-        t.c = {block.x[2][i], block.y[2][i], block.z[2][i]};
+        const TriangleEntry& e = *tile.entries[number];
+        kept = &portions_[e.portion]->kept();
+        t.a = {e.x[0], e.y[0], e.z[0]};
+        t.b = {e.x[1], e.y[1], e.z[1]};
+        t.c = {e.x[2], e.y[2], e.z[2]};
         const bool phong = look_.mode == DrawMode::phong;
         if (phong) {
-          polygon = (*kept)[block.source[i]];
+          polygon = (*kept)[e.source];
           look_number = b.materials.number(polygon.look);
         }
         ScreenVertex* const vertices[3] = {&t.a, &t.b, &t.c};
         for (std::size_t k = 0; k < 3; ++k) {
           ScreenVertex& v = *vertices[k];
           if (phong) {
-            corners[k] = block.color[k][i] - kept->polygons[block.source[i]].first;
+            corners[k] = e.color[k] - kept->polygons[e.source].first;
             const ScreenVertex& c = polygon.corners[corners[k]];
             const int resolution = frame_.resolution.color;
             v.r = to_8_bits(c.r, resolution), v.g = to_8_bits(c.g, resolution);
             v.b = to_8_bits(c.b, resolution);
           } else {
-            const std::uint32_t word = block.color[k][i];
+            const std::uint32_t word = e.color[k];
             v.r = static_cast<std::uint8_t>(word), v.g = static_cast<std::uint8_t>(word >> 8);
             v.b = static_cast<std::uint8_t>(word >> 16);
           }

@@ -6,14 +6,16 @@
 // Same picture, bit for bit, as the plain path (PolygonFiller over the whole frame): same coverage, same
 // planes, same order of drawing within every tile.
 // On vectors: triangles and fans of them (all convex polygons), opaque. In Phong frames, and where something
-//          is transparent, samples hold the number of the nearest opaque triangle, and values are found once
-//          visibility is known.
+//          is transparent in a tile, samples hold the number of the nearest opaque triangle, and values are
+//          found once visibility is known.
 // One sample at a time, by PolygonFiller within the tile: transparent polygons, those without a fan, and
 //          triangles that are no plane triangles.
-// Memory:  RasterTuning::waiting_bytes of waiting triangles, 52 bytes each (in Phong frames 60 to 72 a corner
-//          more), and one batch more, whatever the frame; some 200 KB a thread. When they take more, tiles
-//          are drawn as far as they are known and kept: 20 bytes a sample, Phong 36 (48 with textures), and
-//          32 a transparent fragment. Transparent fragments otherwise count for the tiles being drawn alone.
+// Memory:  RasterTuning::waiting_bytes of waiting triangles, 68 bytes each and tile (in Phong frames 60 to 72
+// a
+//          corner more), and one batch more; in frames of more than 2^26 samples a byte a sample, 2 GB at
+//          most. Some 200 KB a thread. When triangles take more, tiles are drawn as far as they are known and
+//          kept: 20 bytes a sample, Phong 36 (48 with textures), and 32 a transparent fragment. Transparent
+//          fragments otherwise count for the tiles being drawn alone.
 #pragma once
 
 #include <cstddef>
@@ -58,9 +60,12 @@ class TiledFrame {
   class Workers;
 
   std::size_t waiting_bytes() const;
-  void add_in_parallel(const ScreenPolygonBatch& batch);
-  Portion& new_portion();
+  std::size_t add_some(const ScreenPolygonBatch& batch, std::size_t next);
+  void start_portions();
   void draw_waiting(Framebuffer* picture);
+  bool is_empty(int number) const;
+  bool has_transparent(int number) const;
+  void write_background(int number, Framebuffer& picture) const;
   void begin_tile(Tile& tile, int number, bool numbered) const;
   void draw_tile(Tile& tile, bool numbered) const;
   void find_values(Tile& tile) const;
@@ -70,9 +75,9 @@ class TiledFrame {
   ScreenFrame frame_;
   FrameLook look_;
   TileGrid grid_;
-  std::vector<std::unique_ptr<Portion>> portions_;  ///< in drawing order; the first in_use_ have polygons
-  std::size_t in_use_ = 0;
-  bool can_append_ = false;                   ///< the last portion in use may grow
+  std::size_t room_ = 0;                            ///< bytes of waiting triangles
+  std::vector<std::unique_ptr<Portion>> portions_;  ///< one for every thread that sorts
+  std::uint32_t batches_ = 0;                       ///< of the frame, so far
   std::vector<std::unique_ptr<Tile>> drawn_;  ///< by number, when part of the frame had to be drawn early
   std::unique_ptr<Workers> workers_;
 };

@@ -4,13 +4,13 @@
 //
 // FAROP_SOUPS=100000 draws as many random scenes; the default is enough for every kind a few times.
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <cstdlib>
 
 #include "shading/material.h"
 #include "shading/shader.h"
 #include "unit/raster/raster_test_support.h"
+#include "unit/raster/tiled_support.h"
 
 namespace farop::test {
 namespace {
@@ -145,42 +145,6 @@ Framebuffer picture_of(const Soup& soup, const RasterTuning& tuning) {
   rasterizer.polygons(soup.drawing.batch);
   rasterizer.end_frame();
   return rasterizer.take();
-}
-
-/// Has only one instruction set be used while it lives.
-class OnlyTarget {
- public:
-  explicit OnlyTarget(std::int64_t target) {
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  }
-  ~OnlyTarget() {
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  }
-  OnlyTarget(const OnlyTarget&) = delete;
-  OnlyTarget& operator=(const OnlyTarget&) = delete;
-};
-
-std::vector<std::int64_t> targets() {
-  std::vector<std::int64_t> all;
-  for (std::int64_t rest = hwy::SupportedTargets(); rest != 0; rest &= rest - 1) all.push_back(rest & -rest);
-  if (std::find(all.begin(), all.end(), HWY_SCALAR) == all.end()) all.push_back(HWY_SCALAR);
-  return all;
-}
-
-std::string difference(const Framebuffer& a, const Framebuffer& b) {
-  for (std::size_t i = 0; i < a.depth.size(); ++i) {
-    const std::string where = std::to_string(i % static_cast<std::size_t>(a.width)) + ' ' +
-                              std::to_string(i / static_cast<std::size_t>(a.width));
-    if (a.depth[i] != b.depth[i])
-      return "depth " + std::to_string(a.depth[i]) + ", " + std::to_string(b.depth[i]) + " at " + where;
-    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
-      if (a.rgb[c] != b.rgb[c])
-        return "colour " + std::to_string(a.rgb[c]) + ", " + std::to_string(b.rgb[c]) + " at " + where;
-    }
-  }
-  return "";
 }
 
 TEST(Tiled, DrawsRandomSoupsAsThePlainPathDoes) {
