@@ -242,6 +242,7 @@ std::unique_ptr<Drawer> make_drawer(Session& session, const ChosenRasterizer& ra
       internal.keep_depth = options.keep_depth;
       internal.additive_transparency = options.additive_transparency;
       internal.shading = options.shading;
+      internal.tuning.threads = how.threads;
       return std::make_unique<InternalDrawer>(std::move(internal));
     }
     case RasterizerKind::null:

@@ -88,6 +88,10 @@ void add_rasterizer_options(CLI::App& command, RasterizerOptions& options) {
       command
           .add_option("--rasterizer", options.name, "internal, scanline, null (draws none), yours [internal]")
           ->type_name("NAME|FILE.so|FILE.py"));
+  group(
+      command.add_option("--threads", options.threads, "processors that the internal rasterizer uses [all]")
+          ->check(CLI::Range(1, 1024))
+          ->type_name("N"));
   group(command.add_option("--cmd", options.command, "a program: reads a flat file, writes a PPM")
             ->type_name("'PROGRAM {flat} {ppm}'"));
   group(command.add_option("--plugin-option", options.key_values, "an option that your rasterizer asks for")

@@ -18,6 +18,7 @@ struct RasterizerOptions {
   std::string command;                  ///< --cmd
   std::vector<std::string> key_values;  ///< --plugin-option K=V
   std::vector<std::string> folders;     ///< -I
+  int threads = 0;                      ///< of the internal rasterizer; 0: as many as the machine gives
   bool in_process = false;
   bool check = false;
   std::string isolation = "auto";

@@ -173,6 +173,18 @@ TEST(Render, AFlatFileWithRowsFromTheTopGivesTheSamePicture) {
   EXPECT_EQ(read_file(folder / "up.ppm"), read_file(folder / "down.ppm"));
 }
 
+TEST(Render, DrawsTheSamePictureOnAnyNumberOfThreads) {
+  const TemporaryFolder folder;
+  must(folder, "farop spd gears --size 2 -q -o g.nff");
+  for (const std::string mode : {"flat", "gouraud", "phong"}) {
+    const std::string draw = "farop render g.nff --resolution 300x200 --mode " + mode;
+    must(folder,
+         draw + " -o 1.ppm --threads 1 && " + draw + " -o 3.ppm --threads 3 && " + draw + " -o all.ppm");
+    must(folder, "cmp 1.ppm 3.ppm && cmp 1.ppm all.ppm");
+  }
+  EXPECT_EQ(shell(folder, "farop render g.nff -o 0.ppm --threads 0").status, 2);
+}
+
 TEST(Render, SamplesAreMeansOfTheLargerPicture) {
   const TemporaryFolder folder;
   must(folder, "farop spd balls --size 1 -o s.nff");
