@@ -76,6 +76,16 @@ std::size_t Portion::add(const ScreenPolygonBatch& batch, std::uint32_t number, 
   return end;
 }
 
+inline void Portion::add_entry(Bin& bin, const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c,
+                               const TrianglePayload& payload) {
+  TriangleEntry& e = bin.add(pool_);
+  e.x[0] = a.x, e.x[1] = b.x, e.x[2] = c.x;
+  e.y[0] = a.y, e.y[1] = b.y, e.y[2] = c.y;
+  e.z[0] = a.z, e.z[1] = b.z, e.z[2] = c.z;
+  e.color[0] = payload.color[0], e.color[1] = payload.color[1], e.color[2] = payload.color[2];
+  e.source = payload.source, e.batch = batch_, e.portion = number_;
+}
+
 // The triangle that most are; false, and nothing happens, for all others.
 bool Portion::add_simple_triangle(const ScreenPolygonBatch& batch, const ScreenPolygonRecord& record) {
   if (record.vertex_count != 3 || mode_ == DrawMode::phong || color_resolution_ != 256) return false;
@@ -94,9 +104,12 @@ bool Portion::add_simple_triangle(const ScreenPolygonBatch& batch, const ScreenP
   // Turns corners until the lowest, then leftmost comes first; then the others counter-clockwise.
   const auto key = [](const ScreenVertex& c) { return (std::int64_t{c.y} << 32) + c.x; };
   const std::int64_t k0 = key(v[0]), k1 = key(v[1]), k2 = key(v[2]);
-  const unsigned a = k0 < k1 ? (k0 < k2 ? 0 : 2) : (k1 < k2 ? 1 : 2);
-  constexpr unsigned k_next[] = {1, 2, 0, 1};
-  const unsigned b = k_next[area > 0 ? a : a + 1], c = k_next[area > 0 ? a + 1 : a];
+  // Without branches, which would be guessed wrong every other time.
+  unsigned a = static_cast<unsigned>(k1 < k0);
+  a = k2 < std::min(k0, k1) ? 2 : a;
+  static constexpr unsigned k_next[] = {1, 2, 0, 1};
+  const auto clockwise = static_cast<unsigned>(area < 0);
+  const unsigned b = k_next[a + clockwise], c = k_next[a + 1 - clockwise];
   area = area < 0 ? -area : area;
   const std::int32_t low_x = std::min(std::min(v[0].x, v[1].x), v[2].x);
   const std::int32_t high_x = std::max(std::max(v[0].x, v[1].x), v[2].x);
@@ -109,13 +122,20 @@ bool Portion::add_simple_triangle(const ScreenPolygonBatch& batch, const ScreenP
                                 bits)) {
     return false;
   }
-  const Triangle t{v[a], v[b], v[c]};
   const auto word = [](const ScreenVertex& k) {
     return std::uint32_t{k.r} | std::uint32_t{k.g} << 8 | std::uint32_t{k.b} << 16;
   };
-  TrianglePayload payload{{word(t.a), word(t.b), word(t.c)}, 0};
+  TrianglePayload payload{{word(v[a]), word(v[b]), word(v[c])}, 0};
   if (mode_ == DrawMode::flat) payload.color[0] = payload.color[1] = payload.color[2] = word(v[0]);
-  add_to_tiles(t, payload, samples);
+  const std::int32_t* const tile_of = grid_->tile_of.data();
+  const int x = tile_of[samples.first_column], y = tile_of[samples.first_row];
+  if (x == tile_of[samples.end_column - 1] && y == tile_of[samples.end_row - 1]) {
+    add_entry(bins_[static_cast<std::size_t>(y) * static_cast<std::size_t>(grid_->columns) +
+                    static_cast<std::size_t>(x)],
+              v[a], v[b], v[c], payload);
+  } else {
+    add_to_tiles({v[a], v[b], v[c]}, payload, samples);
+  }
   return true;
 }
 
@@ -225,12 +245,7 @@ void Portion::add_to_tiles(const Triangle& t, const TrianglePayload& payload, co
       };
       if (misses(t.a, t.b) || misses(t.b, t.c) || misses(t.c, t.a)) return;
     }
-    TriangleEntry& e = bin.add(pool_);
-    e.x[0] = t.a.x, e.x[1] = t.b.x, e.x[2] = t.c.x;
-    e.y[0] = t.a.y, e.y[1] = t.b.y, e.y[2] = t.c.y;
-    e.z[0] = t.a.z, e.z[1] = t.b.z, e.z[2] = t.c.z;
-    e.color[0] = payload.color[0], e.color[1] = payload.color[1], e.color[2] = payload.color[2];
-    e.source = payload.source, e.batch = batch_, e.portion = number_;
+    add_entry(bin, t.a, t.b, t.c, payload);
   });
 }
 

@@ -63,6 +63,8 @@ class Portion {
 
   bool add_simple_triangle(const ScreenPolygonBatch& batch, const ScreenPolygonRecord& record);
   void add_polygon(const ScreenPolygonBatch& batch, const ScreenPolygonRecord& record);
+  void add_entry(Bin& bin, const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c,
+                 const TrianglePayload& payload);
   void add_to_tiles(const Triangle& t, const TrianglePayload& payload, const Samples& samples);
   void add_triangle(const ScreenPolygonBatch& batch, const ScreenPolygonRecord& record, const Triangle& t,
                     const TrianglePayload& payload, const std::uint32_t (&numbers)[3]);
