@@ -22,7 +22,7 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Lanes of 64 bits set the pace, 32-bit vectors have as many: blocks are 8 wide, more would not help.
+/// At most 8 rows, or triangles, at once.
 using Doubles = hn::CappedTag<double, 8>;
 using Longs = hn::RebindToSigned<Doubles>;
 using UnsignedLongs = hn::RebindToUnsigned<Doubles>;
@@ -307,29 +307,16 @@ HWY_INLINE LongVector multiples(std::int64_t v) {
   return multiply(hn::PromoteTo(dl, lane_numbers()), hn::Set(dl, v));
 }
 
-/// Depths of fixed-point values whose whole part is in the upper half.
-HWY_INLINE IntVector whole(LongVector v) {
-  return hn::BitCast(di, hn::TruncateTo(dw, hn::ShiftRight<32>(hn::BitCast(dul, v))));
-}
-
+/// Fixed-point depths, whole part in the upper half.
 struct WideDepths {
   LongVector part[k_wide_parts];
 };
 
 HWY_INLINE WideIntVector whole(const WideDepths& v) {
 #if HWY_TARGET == HWY_SCALAR
-  return whole(v.part[0]);
+  return hn::BitCast(di, hn::TruncateTo(dw, hn::ShiftRight<32>(hn::BitCast(dul, v.part[0]))));
 #else
   return hn::ConcatOdd(dwi, hn::BitCast(dwi, v.part[1]), hn::BitCast(dwi, v.part[0]));
-#endif
-}
-
-/// The first k_lanes.
-HWY_INLINE WordVector low_part(WideWordVector v) {
-#if HWY_TARGET == HWY_SCALAR
-  return v;
-#else
-  return hn::LowerHalf(dw, v);
 #endif
 }
 
@@ -337,10 +324,10 @@ HWY_INLINE std::int64_t to_upper(std::int64_t fixed) {
   return static_cast<std::int64_t>(static_cast<std::uint64_t>(fixed) << k_to_upper);
 }
 
-template <class D>
-HWY_INLINE hn::Vec<D> pack(D d, hn::Vec<D> r, hn::Vec<D> g, hn::Vec<D> b) {
-  return hn::Or(hn::ShiftRight<24>(r), hn::Or(hn::And(hn::ShiftRight<16>(g), hn::Set(d, 0xFF00u)),
-                                              hn::And(hn::ShiftRight<8>(b), hn::Set(d, 0xFF0000u))));
+/// Colours of fixed-point channels.
+HWY_INLINE WideWordVector pack(WideWordVector r, WideWordVector g, WideWordVector b) {
+  return hn::Or(hn::ShiftRight<24>(r), hn::Or(hn::And(hn::ShiftRight<16>(g), hn::Set(dww, 0xFF00u)),
+                                              hn::And(hn::ShiftRight<8>(b), hn::Set(dww, 0xFF0000u))));
 }
 
 /// Of rows `row` .. `row` + k_lanes - 1 of triangle i.
@@ -582,7 +569,7 @@ class Drawer {
       value = hn::Set(dww, first_number_ + static_cast<std::uint32_t>(i));
     } else {
       const auto channel = [&](int c) { return hn::Add(hn::Set(dww, color_there[c]), lanes.color[c]); };
-      value = pack(dww, channel(0), channel(1), channel(2));
+      value = pack(channel(0), channel(1), channel(2));
     }
     std::uint32_t* const word = task_.word + sample;
     hn::StoreU(hn::IfThenElse(hn::RebindMask(dww, passes), value, hn::LoadU(dww, word)), dww, word);
@@ -615,7 +602,7 @@ class Drawer {
     alignas(64) std::int32_t starts[8], ends[8];
     alignas(64) std::int64_t depths[8];
     alignas(64) std::uint32_t colors[3][8];
-    IntVector low = hn::Set(di, k_tile), high = hn::Zero(di), inner_low = hn::Zero(di), inner_high = low;
+    IntVector low = hn::Set(di, k_tile), high = hn::Zero(di);
     IntVector widest = hn::Zero(di);
     const std::int64_t step_x = s_.depth_x[i], step_y = s_.depth_y[i];
     const std::int64_t depth = s_.depth[i] + strip * step_y;
@@ -627,119 +614,56 @@ class Drawer {
       const IntVector f = hn::IfThenElse(covered, c.first, hn::Set(di, k_tile));
       const IntVector e = hn::IfThenElseZero(covered, c.end);
       low = hn::Min(low, f), high = hn::Max(high, e);
-      inner_low = hn::Max(inner_low, f), inner_high = hn::Min(inner_high, e);
       widest = hn::Max(widest, hn::Sub(e, f));
       hn::Store(f, di, starts + r);
       hn::Store(e, di, ends + r);
     }
     const int left = hn::GetLane(hn::MinOfLanes(di, low)), right = hn::GetLane(hn::MaxOfLanes(di, high));
     if (left >= right) return;
-    std::int32_t* const far = task_.far + k_far_blocks * (strip >> 3);
     const int widest_row = hn::GetLane(hn::MaxOfLanes(di, widest));
-    if (widest_row <= k_narrow) {
-      bool any = false;
-      for (int x = left & ~7; x < right; x += 8) {
-        if (is_hidden(i, x, strip)) continue;
-        any = true;
-      }
-      if (!any) return;
-      for (int r = 0; r < 8; r += k_lanes) {
-        const IntVector start = hn::Load(di, starts + r), row = hn::Add(lane_numbers(), hn::Set(di, r));
-        const LongVector there =
-            hn::Add(hn::Set(dl, depth), hn::Add(multiply(hn::PromoteTo(dl, start), hn::Set(dl, step_x)),
-                                                multiply(hn::PromoteTo(dl, row), hn::Set(dl, step_y))));
-        hn::Store(hn::ShiftLeft<k_to_upper>(there), dl, depths + r);
-        for (int c = 0; c < 3 && !k_numbered; ++c) {
-          const std::uint32_t down = s_.color_y[c][i];
-          hn::Store(hn::Add(hn::Set(dw, s_.color[c][i] + static_cast<std::uint32_t>(strip) * down),
-                            hn::Add(hn::Mul(hn::BitCast(dw, start), hn::Set(dw, s_.color_x[c][i])),
-                                    hn::Mul(hn::BitCast(dw, row), hn::Set(dw, down)))),
-                    dw, colors[c] + r);
-        }
-      }
-      // As many vectors for every row of the strip: a branch on each row's width would be guessed wrong too
-      // often.
-      const auto draw_rows_of = [&](auto most) {
-        for (int r = first; r < end; ++r) {
-          const std::uint32_t color[3] = {colors[0][r], colors[1][r], colors[2][r]};
-          draw_row<most()>(i, k_tile * (strip + r) + starts[r], ends[r] - starts[r], depths[r], color, lanes);
-        }
-      };
-      if (widest_row <= k_narrow / 2) {
-        draw_rows_of(std::integral_constant<int, k_narrow / 2>());
-      } else {
-        draw_rows_of(std::integral_constant<int, k_narrow>());
-      }
-      if (end - first >= k_worth) {
-        for (int x = left & ~7; x < right; x += 8) look_up_far(k_far_blocks * (strip >> 3) + (x >> 3));
-      }
-      return;
-    }
-    const int full_left = hn::GetLane(hn::MaxOfLanes(di, inner_low));
-    const int full_right = hn::GetLane(hn::MinOfLanes(di, inner_high));
-    for (int x = left & ~7; x < right; x += 8) {
-      if (is_hidden(i, x, strip)) continue;
-      const std::int64_t here = depth + step_x * x;
-      if (x >= full_left && x + 8 <= full_right) {
-        draw_block<true>(i, x, strip, here, starts, ends, far[x >> 3], lanes);
-      } else {
-        draw_block<false>(i, x, strip, here, starts, ends, far[x >> 3], lanes);
+    bool seen = false;
+    for (int x = left & ~7; x < right && !seen; x += 8) seen = !is_hidden(i, x, strip);
+    if (!seen) return;
+    for (int r = 0; r < 8; r += k_lanes) {
+      const IntVector start = hn::Load(di, starts + r), row = hn::Add(lane_numbers(), hn::Set(di, r));
+      const LongVector there =
+          hn::Add(hn::Set(dl, depth), hn::Add(multiply(hn::PromoteTo(dl, start), hn::Set(dl, step_x)),
+                                              multiply(hn::PromoteTo(dl, row), hn::Set(dl, step_y))));
+      hn::Store(hn::ShiftLeft<k_to_upper>(there), dl, depths + r);
+      for (int c = 0; c < 3 && !k_numbered; ++c) {
+        const std::uint32_t down = s_.color_y[c][i];
+        hn::Store(hn::Add(hn::Set(dw, s_.color[c][i] + static_cast<std::uint32_t>(strip) * down),
+                          hn::Add(hn::Mul(hn::BitCast(dw, start), hn::Set(dw, s_.color_x[c][i])),
+                                  hn::Mul(hn::BitCast(dw, row), hn::Set(dw, down)))),
+                  dw, colors[c] + r);
       }
     }
-  }
-
-  template <bool k_full>
-  void draw_block(int i, int x, int y, std::int64_t at, const std::int32_t* starts, const std::int32_t* ends,
-                  std::int32_t& far, const Lanes& lanes) {
-    IntVector farthest = hn::Set(di, -1);
-    bool any = false;
-    for (int k = 0; k < 8; k += k_lanes) {
-      std::int32_t* const depth = task_.depth + k_tile * y + x + k;
-      std::uint32_t* const word = task_.word + k_tile * y + x + k;
-      LongVector fixed = hn::Add(hn::Set(dl, to_upper(at + k * s_.depth_x[i])), lanes.depth.part[0]);
-      const LongVector down = hn::Set(dl, to_upper(s_.depth_y[i]));
-      const IntVector column = hn::Add(lane_numbers(), hn::Set(di, x + k));
-      WordVector color[3], color_down[3];
-      if (!k_numbered) {
-        for (int c = 0; c < 3; ++c) {
-          const std::uint32_t there = s_.color[c][i] + static_cast<std::uint32_t>(x + k) * s_.color_x[c][i] +
-                                      static_cast<std::uint32_t>(y) * s_.color_y[c][i];
-          color[c] = hn::Add(low_part(lanes.color[c]), hn::Set(dw, there));
-          color_down[c] = hn::Set(dw, s_.color_y[c][i]);
-        }
+    // As many vectors for every row of the strip: a branch on each row's width would be guessed wrong too
+    // often.
+    const auto draw_rows_of = [&](auto most) {
+      for (int r = first; r < end; ++r) {
+        const std::uint32_t color[3] = {colors[0][r], colors[1][r], colors[2][r]};
+        draw_row<most()>(i, k_tile * (strip + r) + starts[r], ends[r] - starts[r], depths[r], color, lanes);
       }
-      for (int r = 0; r < 8; ++r) {
-        const IntVector z = whole(fixed);
-        const IntVector before = hn::Load(di, depth + k_tile * r);
-        auto passes = hn::Lt(z, before);
-        if (!k_full) {
-          passes = hn::And(passes, hn::And(hn::Gt(column, hn::Set(di, starts[r] - 1)),
-                                           hn::Lt(column, hn::Set(di, ends[r]))));
-        }
-        const IntVector after = hn::IfThenElse(passes, z, before);
-        farthest = hn::Max(farthest, after);
-        if (!hn::AllFalse(di, passes)) {
-          any = true;
-          hn::Store(after, di, depth + k_tile * r);
-          const WordVector value = k_numbered ? hn::Set(dw, first_number_ + static_cast<std::uint32_t>(i))
-                                              : pack(dw, color[0], color[1], color[2]);
-          hn::BlendedStore(value, hn::RebindMask(dw, passes), dw, word + k_tile * r);
-        }
-        fixed = hn::Add(fixed, down);
-        if (!k_numbered) {
-          for (int c = 0; c < 3; ++c) color[c] = hn::Add(color[c], color_down[c]);
-        }
-      }
+    };
+    if (widest_row <= 16) {
+      draw_rows_of(std::integral_constant<int, 16>());
+    } else if (widest_row <= 32) {
+      draw_rows_of(std::integral_constant<int, 32>());
+    } else if (widest_row <= 48) {
+      draw_rows_of(std::integral_constant<int, 48>());
+    } else {
+      draw_rows_of(std::integral_constant<int, 64>());
     }
-    if (any) far = hn::GetLane(hn::MaxOfLanes(di, farthest));
+    if (end - first >= k_worth) {
+      for (int x = left & ~7; x < right; x += 8) look_up_far(k_far_blocks * (strip >> 3) + (x >> 3));
+    }
   }
 
   /// Rows drawn into a block until its farthest depth is looked up again.
   static constexpr int k_refresh = 16;
   /// Rows of a strip that are likely to bring a block's farthest depth nearer.
   static constexpr int k_worth = 4;
-  /// Strips whose rows are no wider are drawn row by row, others in blocks of 8 x 8.
-  static constexpr int k_narrow = 16;
 
   const TileTask& task_;
   Group group_ = {};
