@@ -5,6 +5,7 @@
 #include <sys/mman.h>
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <memory>
 #include <new>
@@ -58,7 +59,8 @@ class ChunkedArray {
   }
 
  private:
-  static constexpr std::size_t k_chunk = (std::size_t{1} << 20) / sizeof(T);
+  /// A power of two: an index is split by a shift and a mask.
+  static constexpr std::size_t k_chunk = std::bit_floor((std::size_t{1} << 20) / sizeof(T));
 
   struct Unmap {
     void operator()(T* chunk) const { ::munmap(chunk, k_chunk * sizeof(T)); }

@@ -35,6 +35,17 @@ constexpr std::array<bool, 256> k_ends_word = [] {
   return table;
 }();
 
+std::uint64_t count_line_ends(std::string_view text) {
+  constexpr std::size_t k_at_once = 128;  // counted in bytes: whole vectors of them
+  std::uint64_t lines = 0;
+  for (; text.size() >= k_at_once; text.remove_prefix(k_at_once)) {
+    std::uint8_t some = 0;
+    for (std::size_t i = 0; i < k_at_once; ++i) some = static_cast<std::uint8_t>(some + (text[i] == '\n'));
+    lines += some;
+  }
+  return lines + static_cast<std::uint64_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
 const char* word_end(const char* first, const char* last) {
   while (first != last && !k_ends_word[static_cast<unsigned char>(*first)]) ++first;
   return first;
@@ -282,6 +293,25 @@ bool WordReader::peek_integers(std::span<std::int64_t> values, IntegerLine& line
 
 void WordReader::take(const IntegerLine& line) {
   go_to(line.end, {0, line.lines, line.line_start});
+}
+
+std::string_view WordReader::text_from(const Word& word) const {
+  const std::size_t start = static_cast<std::size_t>(word.offset - consumed_);
+  return {data_ + start, end_ - start};
+}
+
+Word WordReader::place_behind(const Word& word, std::size_t bytes) const {
+  const std::string_view passed = text_from(word).substr(0, bytes);
+  const std::uint64_t lines = count_line_ends(passed);
+  const std::uint64_t column = lines == 0 ? word.column + bytes : bytes - passed.rfind('\n');
+  return {{}, word.line + lines, column, word.offset + bytes};
+}
+
+void WordReader::go_to(const Word& place) {
+  position_ = static_cast<std::size_t>(place.offset - consumed_);
+  line_ = place.line;
+  line_start_ = place.offset + 1 - place.column;
+  last_was_cr_ = false;
 }
 
 Diagnostic WordReader::diagnostic(Severity severity, const Word& word, std::string message,

@@ -67,6 +67,13 @@ class WordReader {
   bool peek_integers(std::span<std::int64_t> values, IntegerLine& line) const;
   /// Goes behind the last word of a line just peeked at.
   void take(const IntegerLine& line);
+  /// What is at hand of the text from the first byte of `word` on, the one that next() delivered last.
+  std::string_view text_from(const Word& word) const;
+  /// The place `bytes` bytes behind the first byte of `word`, all of them at hand and without a CR that does
+  /// not stand in front of an LF. Without a text.
+  Word place_behind(const Word& word, std::size_t bytes) const;
+  /// Goes on at a place at hand, behind the last byte of a word.
+  void go_to(const Word& place);
   /// A second character that starts a comment where a word could start ('%' in the AFF dialect), 0 for none.
   void set_second_comment_character(char c) { second_comment_ = c; }
 

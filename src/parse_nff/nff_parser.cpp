@@ -18,10 +18,6 @@ namespace farop {
 namespace nff {
 namespace {
 
-/// A corner farther than this fraction of the polygon's diagonal from its plane is worth a warning; six
-/// printed digits bend polygons far less.
-constexpr double k_planarity_tolerance = 1e-3;
-
 constexpr std::string_view k_background_needs = "3 numbers (r g b)";
 constexpr std::string_view k_light_needs = "3 numbers (x y z) or 6 (x y z r g b)";
 constexpr std::string_view k_fill_needs = "8 numbers (r g b Kd Ks shine T index-of-refraction)";
@@ -31,6 +27,9 @@ constexpr std::string_view k_polygon_needs = "a vertex count, then the vertices"
 constexpr std::string_view k_resolution_needs = "2 integers (width height)";
 constexpr const char* k_extra_hint =
     "remove the extra numbers, or restore the keyword of the line that they belong to";
+
+/// So many entities are read one by one at most before a run is tried again.
+constexpr std::uint32_t k_longest_plain_pause = 63;
 
 /// Numbers of a polygon that are read before its corners are stored.
 constexpr std::size_t k_numbers_at_once = 96;
@@ -63,6 +62,7 @@ Scene Parser::parse() {
     if (entity == nullptr) fail_unknown_word();
     Word keyword = word_;
     keyword.text = entity_ = entity->name;
+    if (plain_run(keyword)) continue;
     const bool patch = entity->read == &Parser::patch;
     if ((patch || entity->read == &Parser::polygon) &&
         corners_at_once(keyword, patch ? k_patch_corners : k_polygon_corners)) {
@@ -79,6 +79,42 @@ Scene Parser::parse() {
   scene_.root.children.push_back(std::move(object_));
   scene_.inputs.push_back(std::move(summary_));
   return std::move(scene_);
+}
+
+// Takes the entities from the one at hand on that need no more than their numbers stored; false where there
+// are none. The word behind them is at hand then.
+bool Parser::plain_run(const Word& keyword) {
+  const bool is_fill = keyword.text == "f";
+  if (options_.plain || !(is_fill || keyword.text == "p" || keyword.text == "pp")) return false;
+  if (!is_fill && !has_objects_ && !has_fill_) return false;  // that will be remarked upon
+  if (plain_pause_ > 0) {
+    --plain_pause_;
+    return false;
+  }
+  const std::string_view text = reader_.text_from(word_);
+  const char* const end = text.data() + text.size();
+  const PlainRun run = plain_runs_.read(text.data(), {end, end}, builder_, [this](const Material& material) {
+    has_fill_ = true;
+    start_surface(material);
+  });
+  if (run.behind == nullptr) {
+    plain_pause_ = plain_pause_length_ = std::min(2 * plain_pause_length_ + 1, k_longest_plain_pause);
+    return false;
+  }
+  plain_pause_length_ = 0;
+  const auto place = [&](const char* at) {
+    return reader_.place_behind(word_, static_cast<std::size_t>(at - text.data()));
+  };
+  Word last = run.last_keyword != nullptr ? place(run.last_keyword) : Word();
+  last.text = run.last_is_patch ? "pp" : "p";
+  entity_ = run.ends_with_fill ? "f" : last.text;
+  reader_.go_to(place(run.behind));
+  summary_.polygons += run.polygons, summary_.patches += run.patches;
+  has_objects_ = has_objects_ || run.last_keyword != nullptr;
+  advance();
+  if (!run.ends_with_fill)
+    end_corners(last, run.last_corners, run.last_is_patch ? k_patch_corners : k_polygon_corners);
+  return true;
 }
 
 std::span<const Parser::Keyword> Parser::format_keywords() {
@@ -605,8 +641,7 @@ void Parser::read_corners(const Word& keyword, CornerFormat format, std::int64_t
     }
   }
   if (!word_at_hand) advance();
-  // The cheap look at one character keeps the usual case, a keyword, from being parsed as a number.
-  if (!at_end_ && word_.text.front() < 'A') fail_long_polygon(keyword, count, format);
+  end_corners(keyword, count, format);
   if (!kept) return;
   builder_.end_polygon();
   count_polygon(format.normal);
@@ -619,6 +654,11 @@ void Parser::read_corners(const Word& keyword, CornerFormat format, std::int64_t
                     deviation),
         "it is drawn as it is; split it into triangles to be sure of its shape"));
   }
+}
+
+// The cheap look at one character keeps the usual case, a keyword, from being parsed as a number.
+void Parser::end_corners(const Word& keyword, std::int64_t count, CornerFormat format) {
+  if (!at_end_ && word_.text.front() < 'A') fail_long_polygon(keyword, count, format);
 }
 
 void Parser::fail_short_polygon(const Word& keyword, std::int64_t count, CornerFormat format,

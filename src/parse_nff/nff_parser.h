@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "core/word_reader.h"
+#include "parse_nff/nff_plain_run.h"
 #include "parse_nff/parse_nff.h"
 #include "scene/scene.h"
 #include "scene/surface_builder.h"
@@ -65,6 +66,8 @@ class Parser {
   static std::span<const Keyword> format_keywords();
   static const std::vector<Keyword>& dialect_keywords();
   static const Keyword* find_keyword(std::string_view text);
+
+  bool plain_run(const Word& keyword);
 
   // Words and numbers.
   void advance() { at_end_ = !reader_.next(word_); }
@@ -120,6 +123,8 @@ class Parser {
   /// The reader is behind the keyword. False where the count is not one of a polygon: then nothing was read.
   bool corners_at_once(const Word& keyword, CornerFormat format);
   void read_corners(const Word& keyword, CornerFormat format, std::int64_t count, bool word_at_hand);
+  /// Fails where a number stands behind the last corner.
+  void end_corners(const Word& keyword, std::int64_t count, CornerFormat format);
   [[noreturn]] void fail_short_polygon(const Word& keyword, std::int64_t count, CornerFormat format,
                                        std::uint64_t found) const;
   [[noreturn]] void fail_long_polygon(const Word& keyword, std::int64_t count, CornerFormat format);
@@ -167,6 +172,9 @@ class Parser {
   std::shared_ptr<Object> object_ = std::make_shared<Object>();
   InputSummary summary_;
   SurfaceBuilder builder_;
+  PlainRunReader plain_runs_;
+  std::uint32_t plain_pause_ = 0;  ///< entities to read before a run is tried again
+  std::uint32_t plain_pause_length_ = 0;
   bool has_view_ = false;
   bool has_fill_ = false;
   bool has_objects_ = false;

@@ -9,6 +9,10 @@
 
 namespace farop::nff {
 
+/// A corner farther than this fraction of the polygon's diagonal from its plane is worth a warning; six
+/// printed digits bend polygons far less.
+constexpr double k_planarity_tolerance = 1e-3;
+
 /// Watches the corners of one polygon go by: how far is the farthest from the plane of the first three,
 /// compared with the diagonal of the polygon's axis-parallel box? Nothing is stored but sums, so polygons may
 /// be of any size.

@@ -13,6 +13,13 @@ void PolygonRecorder::end_polygon() {
   ++count_;
 }
 
+void PolygonRecorder::add_polygon(std::span<const std::uint32_t> corners, bool has_given_normals) {
+  records_.push_back(static_cast<std::uint32_t>(corners.size()) |
+                     (has_given_normals ? PolygonList::k_given_normals : 0));
+  for (const std::uint32_t corner : corners) records_.push_back(corner);
+  ++count_;
+}
+
 PolygonList PolygonRecorder::take() {
   open_ = 0;
   return PolygonList(records_.move_to_vector(), std::exchange(count_, 0));

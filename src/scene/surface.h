@@ -86,6 +86,8 @@ class PolygonRecorder {
   void begin_polygon(bool has_given_normals);
   void add_corner(std::uint32_t vertex) { records_.push_back(vertex); }
   void end_polygon();
+  /// A whole record.
+  void add_polygon(std::span<const std::uint32_t> corners, bool has_given_normals);
   /// Drops the record that is open, with its corners.
   void cancel_polygon() { records_.truncate(open_); }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "scene/surface.h"
@@ -21,6 +22,13 @@ class SurfaceBuilder {
   void add_corner(const V3d& position);
   void add_corner(const V3d& position, const V3d& normal);
   void end_polygon() { polygons_.end_polygon(); }
+  /// Whole polygons of one kind. `numbers`: x y z of every corner, with `has_given_normals` x y z nx ny nz;
+  /// `corner_counts`: of every polygon. The same as corner by corner, but faster: many corners are looked for
+  /// at once.
+  void add_polygons(std::span<const double> numbers, std::span<const std::uint32_t> corner_counts,
+                    bool has_given_normals);
+  /// Everything of a surface that another builder made, as if its corners had been added here.
+  void append(const Surface& surface);
   /// Takes back the open polygon; vertices that only it used stay, unused (the caller skips polygons before
   /// adding corners wherever it can).
   void cancel_polygon() { polygons_.cancel_polygon(); }
@@ -34,13 +42,22 @@ class SurfaceBuilder {
 
  private:
   std::uint32_t vertex(const V3d& position, const V3d& normal, bool given);
-  void grow();
+  /// The vertices of `count` corners, corner(i) = {position, normal}, into vertices_.
+  template <class Corner>
+  void find_vertices(std::size_t count, bool given, const Corner& corner);
+  std::uint32_t find_vertex(std::uint64_t hash, const V3d& position, const V3d& normal, bool given);
+  void see_corners(bool given);
+  bool mixed() const { return any_plain_ && any_given_; }
+  /// Makes the table large enough for so many vertices more.
+  void make_room(std::size_t vertices);
 
   Material material_;
   ChunkedArray<V3d> positions_;
   ChunkedArray<V3d> normals_;  ///< empty while no polygon has given ones
   PolygonRecorder polygons_;
   std::vector<CurvedPrimitive> curved_;
+  std::vector<std::uint64_t> hashes_;  ///< of the corners that are looked for at once
+  std::vector<std::uint32_t> vertices_;
   std::vector<std::uint32_t> table_;  ///< open addressing; vertex index + 1, 0 = free
   std::vector<bool> given_;           ///< per vertex: has a given normal; empty while all vertices agree
   bool any_given_ = false;

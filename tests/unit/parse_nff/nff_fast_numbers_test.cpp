@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// WordReader::next_decimal() against the full conversion.
+// The short ways through numbers against the full conversion.
 #include <gtest/gtest.h>
 
 #include <bit>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <random>
 #include <string>
 
 #include "nff_text.h"
 #include "parse_nff/nff_numbers.h"
+#include "parse_nff/nff_short_number.h"
 
 namespace farop {
 namespace {
@@ -48,6 +50,26 @@ TEST(NffFastNumbers, TakesDecimalsAsTheFullConversionDoes) {
   }
   EXPECT_GT(taken, 200'000);  // most are short
   EXPECT_GT(left, 50'000);
+}
+
+TEST(NffFastNumbers, ShortNumbersAreThoseOfTheFullConversion) {
+  std::mt19937_64 random(20261126);
+  int taken = 0;
+  for (int i = 0; i < 400'000; ++i) {
+    const std::string word = random_decimal(random);
+    const std::string text =
+        word + " -1.5 " + std::string(nff::k_short_number_bytes, i % 2 != 0 ? '7' : '\n');
+    double value = 0, expected = 0;
+    const char* const behind = nff::read_short_number(text.data(), value);
+    if (behind == nullptr) continue;
+    // It takes the start of a longer word, too: that is for the caller to see.
+    const std::string_view number(text.data(), static_cast<std::size_t>(behind - text.data()));
+    ++taken;
+    ASSERT_EQ(nff::parse_number(number, expected), nff::NumberSyntax::number) << word;
+    ASSERT_EQ(std::bit_cast<std::uint64_t>(value), std::bit_cast<std::uint64_t>(expected)) << word;
+    ASSERT_TRUE(std::strchr("0123456789", *behind) == nullptr) << word;
+  }
+  EXPECT_GT(taken, 100'000);
 }
 
 TEST(NffFastNumbers, LeavesWhatItDoesNotTakeAsItWas) {

@@ -73,6 +73,45 @@ TEST(SurfaceBuilder, NumbersVerticesLikeAPlainMap) {
   }
 }
 
+// Many polygons at a time, and surfaces put together from pieces, against corner by corner.
+TEST(SurfaceBuilder, TakesPolygonsAndPiecesAsIfCornerByCorner) {
+  std::mt19937 random(11);
+  SurfaceBuilder one_by_one, many, piece, pieces;
+  for (int round = 0; round < 100; ++round) {
+    const auto grid = 2 + random() % 30;
+    const auto coordinate = [&] { return static_cast<double>(random() % grid) / 8; };
+    const auto kinds = random() % 3;  // p, pp, both
+    for (auto runs = 1 + random() % 6; runs > 0; --runs) {
+      const bool given = kinds == 2 ? random() % 2 != 0 : kinds == 1;
+      std::vector<double> numbers;
+      std::vector<std::uint32_t> counts;
+      for (auto polygons = random() % 200; polygons > 0; --polygons) {
+        counts.push_back(3 + random() % 4);
+        one_by_one.begin_polygon(given);
+        for (std::uint32_t i = 0; i < counts.back(); ++i) {
+          const V3d position(coordinate(), coordinate(), -coordinate());
+          const V3d normal(0, given && random() % 2 != 0 ? 0.5 : 0, 1);
+          given ? one_by_one.add_corner(position, normal) : one_by_one.add_corner(position);
+          numbers.insert(numbers.end(), {position.x, position.y, position.z});
+          if (given) numbers.insert(numbers.end(), {normal.x, normal.y, normal.z});
+        }
+        one_by_one.end_polygon();
+      }
+      many.add_polygons(numbers, counts, given);
+      piece.add_polygons(numbers, counts, given);
+      if (random() % 4 == 0) {
+        const Sphere sphere{{coordinate(), 0, 0}, 1, false};
+        one_by_one.add(sphere), many.add(sphere), piece.add(sphere);
+      }
+      if (random() % 2 == 0) pieces.append(piece.take());
+    }
+    pieces.append(piece.take());
+    const Surface expected = one_by_one.take();
+    ASSERT_TRUE(many.take() == expected);
+    ASSERT_TRUE(pieces.take() == expected);
+  }
+}
+
 TEST(SurfaceBuilder, StartsAfreshAfterTake) {
   SurfaceBuilder builder;
   add_polygon(builder, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}});
