@@ -37,7 +37,8 @@ bool operator==(const Surface& a, const Surface& b) {
                                                     a.shader->describe() == b.shader->describe());
   return same_shader && a.material == b.material && a.normal_rule == b.normal_rule &&
          a.positions == b.positions && a.normals == b.normals && a.textures == b.textures &&
-         a.polygons == b.polygons && a.curved == b.curved;
+         a.polygons == b.polygons && a.curved == b.curved &&
+         (a.normal_rule != NormalRule::sipp || a.averaged_normals == b.averaged_normals);
 }
 
 }  // namespace farop

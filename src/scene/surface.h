@@ -145,8 +145,9 @@ struct Surface {
   /// vertices whose polygons have none are 0 0 0 and mean nothing.
   std::vector<V3d> normals;
   /// Averages over the polygons that share a vertex, parallel to positions, unit length or zero (then the
-  /// plane normal serves); empty unless average_normals() (scene/plane.h) made them. Not part of what was
-  /// read.
+  /// plane normal serves); empty unless average_normals() (scene/plane.h) made them. Of surfaces from SIPP
+  /// (NormalRule::sipp) given ones stand here too, in the place of averages; of others this is not part of
+  /// what was read.
   std::vector<V3d> averaged_normals;
   /// Texture coordinates u v w, parallel to positions; empty where no shader could want them.
   std::vector<V3f> textures;
@@ -156,7 +157,8 @@ struct Surface {
   std::uint64_t cone_tip_triangles = 0;
 
   std::size_t memory_bytes() const;
-  /// Equality of what was read: material, shader by its description, vertices, polygons, curved primitives.
+  /// Equality of what was read: material, shader by its description, vertices, polygons, curved primitives;
+  /// averaged normals under NormalRule::sipp alone.
   friend bool operator==(const Surface& a, const Surface& b);
 };
 

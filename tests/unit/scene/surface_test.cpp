@@ -192,5 +192,20 @@ TEST(AverageNormals, OppositePolygonsSumToZero) {
   for (const V3d& n : s.averaged_normals) EXPECT_EQ(n, V3d(0, 0, 0));
 }
 
+TEST(Surface, AveragedNormalsCountWhereTheyMayHaveBeenGiven) {
+  SurfaceBuilder builder;
+  add_polygon(builder, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}});
+  Surface a = builder.take();
+  Surface b = a;
+  average_normals(b);
+  EXPECT_EQ(a, b) << "NFF's are made when they are asked for";
+  a.normal_rule = b.normal_rule = NormalRule::sipp;
+  EXPECT_FALSE(a == b);
+  average_normals(a);
+  EXPECT_EQ(a, b);
+  a.averaged_normals[1] = V3d(0, 1, 0);
+  EXPECT_FALSE(a == b);
+}
+
 }  // namespace
 }  // namespace farop
