@@ -34,7 +34,11 @@ bool is_failure(const Problem& p) {
 class Checker {
  public:
   Checker(const std::vector<Case>& corpus, const SubjectMaker& maker, const CheckOptions& options)
-      : corpus_(corpus), options_(options), run_(maker, options), rows_(corpus.size()) {}
+      : corpus_(corpus),
+        options_(options),
+        run_(maker, options),
+        rows_(corpus.size()),
+        told_(corpus.size()) {}
 
   CheckResult run() {
     for (std::size_t i = 0; i < corpus_.size(); ++i) {
@@ -46,8 +50,9 @@ class Checker {
     result_.findings = findings_of(run_, all_.problems);
     result_.cases = std::move(rows_);
     sum_up(corpus_, result_);
+    tell_the_rest();
     Summary& s = result_.summary;
-    s.precision.worst_color = all_.worst_color;
+    s.precision = precision_of(result_.findings, all_.worst_depth, all_.worst_color);
     s.renders = run_.renders();
     s.verdict = result_.has_errors() ? "fail" : options_.accepted_rule != "lb" ? "pass.other-rule" : "pass";
     if (options_.interrupted && options_.interrupted()) s.verdict = "interrupted";
@@ -87,6 +92,8 @@ class Checker {
     std::atomic<std::size_t> next{0};
     std::exception_ptr failure;
     std::mutex mutex;
+    std::vector<bool> ready(units.size());
+    std::size_t told = 0;
     const auto work = [&] {
       try {
         std::unique_ptr<Subject> subject;
@@ -95,6 +102,9 @@ class Checker {
           run_unit(units[i], *subject, outcomes[i]);
           const std::lock_guard lock(mutex);
           done_ += units[i].cases.size();
+          // In the order of the corpus, whatever is ready first.
+          for (ready[i] = true; told < units.size() && ready[told]; ++told)
+            tell_faultless(units[told], outcomes[told]);
           if (options_.progress) options_.progress(done_, corpus_.size());
           if (options_.interrupted && options_.interrupted()) stop_ = true;
           for (const Problem& p : outcomes[i].problems) {
@@ -139,10 +149,28 @@ class Checker {
     }
   }
 
+  void tell_faultless(const Unit& unit, const Outcome& out) {
+    if (!options_.finished) return;
+    for (const std::size_t i : unit.cases) {
+      const CaseResult& row = rows_[i];
+      if (row.wrong > 0 || std::ranges::find(out.problems, row.id, &Problem::case_id) != out.problems.end())
+        continue;
+      options_.finished(row);
+      told_[i] = true;
+    }
+  }
+
+  void tell_the_rest() const {
+    for (std::size_t i = 0; options_.finished && i < result_.cases.size(); ++i) {
+      if (!told_[i]) options_.finished(result_.cases[i]);
+    }
+  }
+
   const std::vector<Case>& corpus_;
   const CheckOptions& options_;
   Run run_;
   std::vector<CaseResult> rows_;
+  std::vector<bool> told_;
   Outcome all_;
   CoverageCause cause_;
   CheckResult result_;

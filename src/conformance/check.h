@@ -22,6 +22,9 @@ struct CheckOptions {
   bool shrink = true;  ///< look for the smallest example of each finding
   bool repeat = true;  ///< family det
   ProgressFunction progress;
+  /// Gets each case once, as soon as its verdict is final: those without fault while their family runs, the
+  /// others at the end, when causes have been named. By several threads, but one at a time.
+  std::function<void(const CaseResult&)> finished;
   /// Asked now and then: true ends the run early; what was found so far is kept.
   std::function<bool()> interrupted;
 };

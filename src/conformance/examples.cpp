@@ -66,6 +66,25 @@ Example example_of(const Run& run, const Drawing& drawing, const Framebuffer& go
   return e;
 }
 
+/// Depths do not show in a picture: what was measured says where they are wrong.
+void add_measured(Example& e, const Problem& p, ConsistentRule rule) {
+  const Expectation expected(p.drawing, rule);
+  e.wrong_pixels = p.measured.size();
+  for (const MeasuredDepth& m : p.measured) {
+    if (e.pixels.size() == k_max_example_pixels) break;
+    WrongPixel pixel;
+    pixel.x = m.x, pixel.y = m.y, pixel.kind = "depth";
+    pixel.expected_owner = pixel.got_owner = static_cast<int>(m.owner);
+    pixel.expected = pixel_at(e.expected, m.x, m.y), pixel.got = pixel_at(e.got, m.x, m.y);
+    if (const auto& plane = expected.polygons()[m.owner].plane(Attribute::z)) {
+      const Rational v = plane->at(m.x, m.y);
+      pixel.values.push_back(
+          {"z", static_cast<std::int64_t>(v.numerator), static_cast<std::int64_t>(v.denominator), m.whole});
+    }
+    e.pixels.push_back(std::move(pixel));
+  }
+}
+
 /// Whether a drawing shows a verdict of this kind; fills the picture.
 bool shows(Run& run, const std::string& verdict, const Drawing& drawing, Subject& subject, Framebuffer& got) {
   const Drawing given = run.maker.as_given(drawing);
@@ -146,6 +165,7 @@ void add_examples(Run& run, Finding& f, std::vector<const Problem*> members) {
       }
     }
     Example e = example_of(run, drawing, got, coverage ? ConsistentRule::lb : run.rule);
+    if (!shrunk_it && e.pixels.empty() && !e.got.rgb.empty()) add_measured(e, p, run.rule);
     e.from_case = p.case_id, e.renders = renders, e.shrunk = shrunk_it;
     f.examples.push_back(std::move(e));
   }

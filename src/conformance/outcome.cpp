@@ -8,6 +8,7 @@ namespace farop::conformance {
 
 void Outcome::add(Outcome other) {
   depths.add(other.depths), colors.add(other.colors);
+  worst_depth = std::max(worst_depth, other.worst_depth);
   worst_color = std::max(worst_color, other.worst_color);
   for (Problem& p : other.problems) problems.push_back(std::move(p));
   for (Evidence& e : other.evidence) evidence.push_back(std::move(e));

@@ -2,6 +2,7 @@
 // What drawing and judging cases has brought to light.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "conformance/evidence.h"
@@ -15,7 +16,7 @@ struct Outcome {
   std::vector<Evidence> evidence;
   DepthStatistics depths;
   ColorStatistics colors;
-  double worst_color = 0;
+  std::optional<double> worst_depth, worst_color;  ///< nothing: none was measured
 
   void add(Outcome other);
 };

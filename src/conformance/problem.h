@@ -11,12 +11,21 @@
 
 namespace farop::conformance {
 
+/// A measured depth: the exact one, and the interval in which the rasterizer's lies.
+struct MeasuredDepth {
+  int x = 0, y = 0;
+  std::uint32_t owner = 0;
+  std::int64_t farthest_win = 0;  ///< k_w: the depth is in k_w .. k_w + 1
+  std::int64_t whole = 0;         ///< the depth, where it is a whole number
+};
+
 struct Problem {
   std::string case_id, verdict, detail;
   Severity severity = Severity::error;
   std::string message, hint;
   Drawing drawing;  ///< as given
   std::vector<WrongSample> wrong;
+  std::vector<MeasuredDepth> measured;  ///< wrong ones, where depth was measured
   std::uint64_t count = 0;
   std::vector<std::string> shown_by;  ///< where it is not one case: all that show it
   std::uint64_t explained = 0;        ///< of `count`, where `shown_by` is filled
@@ -50,13 +59,6 @@ struct ColorStatistics {
   void add(const Expectation& expected, const std::vector<WrongSample>& samples);
   void add(const ColorStatistics& other);
   DepthStatistics::Name name() const;
-};
-
-/// A measured depth: the exact one, and the interval in which the rasterizer's lies.
-struct MeasuredDepth {
-  int x = 0, y = 0;
-  std::uint32_t owner = 0;
-  std::int64_t farthest_win = 0;  ///< k_w: the depth is in k_w .. k_w + 1
 };
 
 /// The explanation that fits wrong depths best.

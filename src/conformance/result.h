@@ -136,7 +136,8 @@ struct RunFacts {
   std::string output, error_output;  ///< what the rasterizer printed, bounded
 };
 
-/// Largest error seen of a depth or a colour, as the precision class of the rasterizer.
+/// Largest error seen of a depth or a colour, as the precision class of the rasterizer. Depths that are
+/// probed lie in an interval of length 1: the error is the distance to that.
 struct Precision {
   double worst_depth = 0, worst_color = 0;
   std::string depth_class,

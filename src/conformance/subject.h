@@ -48,6 +48,8 @@ class SubjectMaker {
   virtual bool parallel() const { return true; }
   /// Colours have 8 bits whatever the colour resolution.
   virtual bool eight_bit_colors() const { return false; }
+  /// Pictures may come with Framebuffer::depth: where one does, depth is read there instead of probed.
+  virtual bool may_deliver_depth() const { return false; }
 
   static constexpr Color k_black{};
 };

@@ -70,4 +70,23 @@ void sum_up(std::span<const Case> corpus, CheckResult& result) {
   result.summary.score = families.empty() ? 0 : 100 * share / static_cast<double>(families.size());
 }
 
+Precision precision_of(std::span<const Finding> findings, std::optional<double> worst_depth,
+                       std::optional<double> worst_color) {
+  // Stepping with 16 fractional bits adds that much to what rounding does, in the frames of the corpus.
+  constexpr double k_stepping = 1.0 / 32;
+  const auto class_of = [&](const std::string& family, std::optional<double> worst) -> std::string {
+    if (!worst) return "";
+    bool drifts = false;
+    for (const Finding& f : findings) {
+      if (!f.verdict.starts_with(family)) continue;
+      if (f.severity == Severity::error) return "wrong";
+      drifts = drifts || f.verdict == family + "drift";
+    }
+    if (drifts) return "drift";
+    return *worst == 0 ? "exact" : *worst <= 0.5 + k_stepping ? "nearest" : "within 1";
+  };
+  return {worst_depth.value_or(0), worst_color.value_or(0), class_of("depth.", worst_depth),
+          class_of("colour.", worst_color)};
+}
+
 }  // namespace farop::conformance
