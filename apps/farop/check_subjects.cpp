@@ -260,6 +260,7 @@ class EmittingMaker : public SubjectMaker {
     return std::make_unique<EmittingSubject>(folder_);
   }
   bool parallel() const override { return false; }
+  bool may_deliver_depth() const override { return true; }
 
  private:
   std::string folder_;
@@ -282,13 +283,31 @@ class PictureSubject : public Subject {
     }
     try {
       d.picture = read_ppm(path);
+      read_depths(drawing, *d.picture);
     } catch (const Error& error) {
+      d.picture.reset();
       d.failure = SubjectFailure{"abi.picture", error.what(), error.hint(), {}, {}, false};
     }
     return d;
   }
 
  private:
+  /// From the PGM beside the picture, where there is one.
+  void read_depths(const Drawing& drawing, Framebuffer& picture) const {
+    const std::string path = file_of(folder_, drawing, ".pgm");
+    if (!std::filesystem::exists(path)) return;
+    const DepthPicture depths = read_depth_pgm(path);
+    if (depths.width != picture.width || depths.height != picture.height ||
+        depths.maximum != drawing.frame.z - 1) {
+      throw Error(ExitStatus::input,
+                  fmt::format("{}: has {} x {} pixels and the maximum {}, expected {} x {} and {}",
+                              printable(path, 4096), depths.width, depths.height, depths.maximum,
+                              picture.width, picture.height, drawing.frame.z - 1),
+                  "the maximum is ZRES - 1; without this file depth is measured from pictures");
+    }
+    picture.depth.assign(depths.z.begin(), depths.z.end());
+  }
+
   std::string folder_;
 };
 
@@ -303,6 +322,7 @@ class PictureMaker : public SubjectMaker {
   std::unique_ptr<Subject> make(std::uint8_t) const override {
     return std::make_unique<PictureSubject>(folder_);
   }
+  bool may_deliver_depth() const override { return true; }
 
  private:
   std::string folder_;
@@ -319,7 +339,8 @@ std::unique_ptr<SubjectMaker> make_picture_reader(const std::string& folder) {
 }
 
 std::unique_ptr<SubjectMaker> make_subjects(Session& session, const ChosenRasterizer& chosen,
-                                            const RasterizerOptions& how, std::uint64_t seed) {
+                                            const RasterizerOptions& how, std::uint64_t seed,
+                                            PrintedLines& printed) {
   switch (chosen.kind) {
     case RasterizerKind::internal:
       return std::make_unique<InternalMaker>();
@@ -332,8 +353,11 @@ std::unique_ptr<SubjectMaker> make_subjects(Session& session, const ChosenRaster
   }
   const LoadableRasterizer what = loadable(chosen.file, plugin_options(how));
   if (how.in_process) return std::make_unique<InProcessMaker>(what);
-  IsolationOptions options = isolation_options(
-      how, [&session](farop_log_level, const std::string& line) { session.console.log("{}", line); });
+  IsolationOptions options =
+      isolation_options(how, [&session, &printed](farop_log_level, const std::string& line) {
+        printed.add(line);
+        session.console.log("{}", line);
+      });
   options.plugin_options = what.options;
   options.seed = seed;
   bool triangles = false;
@@ -363,6 +387,7 @@ PluginFacts describe_subject(const ChosenRasterizer& chosen, const RasterizerOpt
   }
   facts.kind = chosen.file.ends_with(".py") ? "python" : "library";
   facts.argument = facts.name = printable(chosen.file, 4096);
+  facts.sha256 = sha256_of_file(chosen.file);
   if (how.in_process) return facts;
   const LoadableRasterizer what = loadable(chosen.file, plugin_options(how));
   IsolationOptions options = isolation_options(how, {});

@@ -6,17 +6,21 @@
 
 #include "conformance/subject.h"
 #include "rasterizer_options.h"
+#include "run_facts.h"
 #include "session.h"
 
 namespace farop::app {
 
-/// What is to be checked. The session must outlive it. Throws Error(plugin) for a file that cannot be loaded
-/// here at all; a library that fails in its own process is the checker's finding.
+/// What is to be checked; what it prints goes to `printed`, too. Session and `printed` must outlive it.
+/// Throws Error(plugin) for a file that cannot be loaded here at all; a library that fails in its own process
+/// is the checker's finding.
 std::unique_ptr<conformance::SubjectMaker> make_subjects(Session& session, const ChosenRasterizer& chosen,
-                                                         const RasterizerOptions& how, std::uint64_t seed);
+                                                         const RasterizerOptions& how, std::uint64_t seed,
+                                                         PrintedLines& printed);
 
 /// Draws right and writes every drawing as a flat file into `folder`: HASH.scr. For rasterizers on other
-/// machines; their pictures are HASH.ppm, in the same folder, on a black background.
+/// machines; their pictures are HASH.ppm, in the same folder, on a black background, and their depths, where
+/// they can tell them, HASH.pgm of the maximum ZRES - 1.
 std::unique_ptr<conformance::SubjectMaker> make_emitter(const std::string& folder);
 std::unique_ptr<conformance::SubjectMaker> make_picture_reader(const std::string& folder);
 

@@ -18,11 +18,12 @@
 namespace farop::app {
 namespace {
 
-// Every long option can also come from the environment: --light-intensity from FAROP_LIGHT_INTENSITY.
+// Every long option can also come from the environment: --light-intensity from FAROP_LIGHT_INTENSITY. Where
+// one word means different things to different commands, one of them names its own variable.
 void name_environment(CLI::App& command) {
   for (CLI::Option* option : command.get_options()) {
     if (option->get_lnames().empty() || option->get_lnames().front() == "help" ||
-        option->get_lnames().front() == "output")
+        option->get_lnames().front() == "output" || !option->get_envname().empty())
       continue;
     std::string name = "FAROP_" + option->get_lnames().front();
     std::transform(name.begin(), name.end(), name.begin(),

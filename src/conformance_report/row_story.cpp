@@ -38,7 +38,17 @@ int crossings_up_to(std::span<const Crossing> row, int x) {
       row, [&](const Crossing& c) { return c.numerator <= std::int64_t{x} * c.denominator; }));
 }
 
+EdgeSum edge_sum(const Crossing& edge, int x, int y) {
+  const ScreenVertex &a = edge.from, &b = edge.to;
+  const std::int64_t dy = std::int64_t{b.y} - a.y, dx = std::int64_t{b.x} - a.x;
+  const std::int64_t value = (std::int64_t{x} - a.x) * dy - (std::int64_t{y} - a.y) * dx;
+  return {value, fmt::format("({} \u2212 {})\u00B7{} \u2212 ({} \u2212 {})\u00B7{} = {}", x, a.x, dy, y, a.y,
+                             dx, value)};
+}
+
 std::string fraction(std::int64_t numerator, std::int64_t denominator) {
+  const std::int64_t common = std::gcd(numerator, denominator);
+  if (common > 1) numerator /= common, denominator /= common;
   if (denominator == 1) return fmt::format("{}", numerator);
   return fmt::format("{}/{} = {:.2f}", numerator, denominator,
                      static_cast<double>(numerator) / static_cast<double>(denominator));

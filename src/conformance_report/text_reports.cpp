@@ -147,9 +147,33 @@ Json run_json(const RunFacts& r) {
 }
 
 Json summary_json(const Summary& s) {
-  return {{"verdict", s.verdict}, {"score", s.score},   {"cases", s.cases},
-          {"failed", s.failed},   {"warned", s.warned}, {"skipped", s.skipped},
-          {"judged", s.judged},   {"wrong", s.wrong},   {"ambiguous", s.ambiguous}};
+  return {{"verdict", s.verdict},
+          {"score", s.score},
+          {"cases", s.cases},
+          {"failed", s.failed},
+          {"warned", s.warned},
+          {"skipped", s.skipped},
+          {"judged", s.judged},
+          {"wrong", s.wrong},
+          {"ambiguous", s.ambiguous},
+          {"precision",
+           {{"depth", s.precision.depth_class},
+            {"depth_error", s.precision.worst_depth},
+            {"colour", s.precision.color_class},
+            {"colour_error", s.precision.worst_color}}}};
+}
+
+Json perf_json(const PerfResult& p) {
+  const auto milliseconds = [](std::vector<double> list) {
+    for (double& value : list) value *= 1000;
+    return list;
+  };
+  return {{"name", clean(p.name)},
+          {"sizes", p.sizes},
+          {"ms", milliseconds(p.seconds)},
+          {"reference_ms", milliseconds(p.reference_seconds)},
+          {"slope", {p.slope, p.slope_low, p.slope_high}},
+          {"ratio", {p.ratio, p.ratio_low, p.ratio_high}}};
 }
 
 Json fingerprint_json(const RuleFingerprint& f) {
@@ -231,10 +255,10 @@ std::string csv(std::string_view text) {
   return "\"" + out + "\"";
 }
 
-std::string gradescope_output(const CheckResult& result, const FamilyResult& family) {
-  std::string out = fmt::format("{} passed, {} failed, {} skipped.", family.passed + family.warned,
-                                family.failed, family.skipped);
-  if (!family.skip_reason.empty()) out += " Not run: " + clean(family.skip_reason);
+std::string gradescope_output(const CheckResult& result, const FamilyResult& family, const Catalogue& words) {
+  std::string out = words.format("{} passed, {} failed, {} skipped.", family.passed + family.warned,
+                                 family.failed, family.skipped);
+  if (!family.skip_reason.empty()) out += " " + words.format("Not run: {}", clean(family.skip_reason));
   for (const Finding& f : result.findings) {
     const bool here =
         std::ranges::any_of(f.case_ids, [&](const std::string& id) { return family_of(id) == family.name; });
@@ -254,10 +278,11 @@ std::string to_json(const CheckResult& r) {
   json["run"] = run_json(r.run);
   json["summary"] = summary_json(r.summary);
   json["rule_fingerprint"] = fingerprint_json(r.rule_fingerprint);
-  for (const char* list : {"findings", "families", "cases"}) json[list] = Json::array();
+  for (const char* list : {"findings", "families", "cases", "perf"}) json[list] = Json::array();
   for (const Finding& f : r.findings) json["findings"].push_back(finding_json(f));
   for (const FamilyResult& f : r.families) json["families"].push_back(family_json(f));
   for (const CaseResult& c : r.cases) json["cases"].push_back(case_json(c));
+  for (const PerfResult& p : r.perf) json["perf"].push_back(perf_json(p));
   json["notes"] = clean_list(r.notes);
   return dumped(json, 1);
 }
@@ -317,7 +342,7 @@ std::string to_csv(const CheckResult& r) {
   return out;
 }
 
-std::string to_gradescope(const CheckResult& r) {
+std::string to_gradescope(const CheckResult& r, const Catalogue& words) {
   Json tests = Json::array();
   constexpr double k_points = 10;
   for (const FamilyResult& f : r.families) {
@@ -327,7 +352,7 @@ std::string to_gradescope(const CheckResult& r) {
                      {"score", k_points * share},
                      {"max_score", k_points},
                      {"status", run > 0 && f.failed == 0 ? "passed" : "failed"},
-                     {"output", gradescope_output(r, f)},
+                     {"output", gradescope_output(r, f, words)},
                      {"output_format", "text"},
                      {"visibility", "visible"}});
   }
@@ -335,16 +360,17 @@ std::string to_gradescope(const CheckResult& r) {
   // A result without tests needs a score of its own.
   if (tests.empty()) json["score"] = 0;
   json["output"] =
-      fmt::format("{}: {} of {} cases failed.", clean(r.summary.verdict), r.summary.failed, r.summary.cases);
+      words.format("{}: {} of {} cases failed.", clean(r.summary.verdict), r.summary.failed, r.summary.cases);
   json["tests"] = std::move(tests);
   json["extra_data"] = {{"corpus", r.run.corpus_hash}, {"seed", r.run.seed}};
   return dumped(json, 1);
 }
 
-std::string gradescope_unfinished() {
-  const Json json{{"score", 0},
-                  {"output", "The check did not finish: it was stopped, or ran out of time or memory."},
-                  {"tests", Json::array()}};
+std::string gradescope_unfinished(const Catalogue& words) {
+  const Json json{
+      {"score", 0},
+      {"output", words("The check did not finish: it was stopped, or ran out of time or memory.")},
+      {"tests", Json::array()}};
   return dumped(json, 1);
 }
 

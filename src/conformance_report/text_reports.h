@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a check found out, for programs. Each function returns the whole file; nothing is written here. Text
 // that a rasterizer can choose is stripped of control characters and escaped as the format asks. Equal
-// results give equal bytes, but for run.time_seconds, run.started and every "ms".
+// results give equal bytes, but for run.time_seconds, run.time_started, every "ms" and perf. `words`: the
+// language of what is said beside the result, which should be translated() already.
 #pragma once
 
 #include <string>
 
 #include "conformance/result.h"
+#include "conformance_report/catalogue.h"
 
 namespace farop::conformance_report {
 
@@ -22,8 +24,8 @@ std::string to_tap(const conformance::CheckResult& result);
 /// RFC 4180, one row a case; cells that a spreadsheet would take for a formula get an apostrophe.
 std::string to_csv(const conformance::CheckResult& result);
 /// Gradescope's results.json: ten points a family, in proportion to the cases passed.
-std::string to_gradescope(const conformance::CheckResult& result);
+std::string to_gradescope(const conformance::CheckResult& result, const Catalogue& words);
 /// What Gradescope gets to see when the check does not come to its end: no points, and why.
-std::string gradescope_unfinished();
+std::string gradescope_unfinished(const Catalogue& words);
 
 }  // namespace farop::conformance_report

@@ -8,5 +8,6 @@ extern const char* const k_web_template;  ///< Mustache
 extern const char* const k_web_style;
 extern const char* const k_web_script;
 extern const char* const k_web_script_hash;  ///< as a Content-Security-Policy names it
+extern const char* const k_web_portuguese;   ///< JSON, a sentence to its translation
 
 }  // namespace farop::conformance_report

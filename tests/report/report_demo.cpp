@@ -7,6 +7,7 @@
 #include "sample_result.h"
 
 int main() {
-  const std::string page = farop::conformance_report::to_html(farop::conformance_report::sample_result());
+  using namespace farop::conformance_report;
+  const std::string page = to_html(sample_result(), Catalogue(Language::english));
   return std::fwrite(page.data(), 1, page.size(), stdout) == page.size() ? 0 : 1;
 }

@@ -9,11 +9,13 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <string_view>
 #include <thread>
 
 #include "check_reports.h"
 #include "check_subjects.h"
 #include "command_line.h"
+#include "conformance_report/terminal_report.h"
 #include "core/output_file.h"
 #include "core/word_reader.h"
 #include "export/flat_reader.h"
@@ -107,10 +109,66 @@ std::string list_of(const std::vector<Case>& cases) {
   return text;
 }
 
+/// A word as a shell takes it.
+std::string shell_word(const std::string& word) {
+  constexpr std::string_view k_plain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%{}";
+  if (!word.empty() && word.find_first_not_of(k_plain) == std::string::npos) return word;
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+/// What is checked, as the command line names it.
+std::string subject_words(const CheckCommand& command) {
+  const RasterizerOptions& r = command.options;
+  if (!command.images.empty()) return " --images " + shell_word(command.images);
+  std::string text =
+      " " + (r.command.empty() ? shell_word(command.rasterizer) : "--cmd " + shell_word(r.command));
+  for (const std::string& folder : r.folders) text += " -I " + shell_word(folder);
+  for (const std::string& pair : r.key_values) text += " --plugin-option " + shell_word(pair);
+  return text + (r.in_process ? " --in-process" : "");
+}
+
 std::string command_for(const CheckCommand& command, const std::string& file) {
-  const std::string what =
-      command.options.command.empty() ? command.rasterizer : "--cmd '" + command.options.command + "'";
-  return fmt::format("farop check --case {} {}", file, what);
+  return "farop check --case " + shell_word(file) + subject_words(command);
+}
+
+/// Repeats the whole run.
+std::string repeat_command(const CheckCommand& command) {
+  std::string text = "farop check" + subject_words(command) + fmt::format(" --seed {}", command.seed);
+  if (command.quick) text += " --quick";
+  if (command.thorough) text += " --thorough";
+  if (command.beyond) text += " --beyond-contract";
+  if (command.accepted != "lb") text += " --accept-rule " + shell_word(command.accepted);
+  if (command.precision != "default") text += " --precision " + command.precision;
+  for (const std::string& name : command.families) text += " --family " + shell_word(name);
+  for (const std::string& name : command.cases) text += " --case " + shell_word(name);
+  return text;
+}
+
+/// All but what is measured while it runs.
+RunFacts facts_of(const CheckCommand& command, const std::vector<Case>& cases) {
+  RunFacts facts;
+  facts.program_version = k_version, facts.compiler = compiler_name();
+  facts.system = system_name(), facts.processor = processor_name(), facts.started = time_now();
+  facts.command = repeat_command(command);
+  facts.level = command.quick ? "quick" : command.thorough ? "thorough" : "default";
+  facts.seed = command.seed, facts.corpus_hash = fmt::format("{:016x}", corpus_hash(cases));
+  facts.rule = command.accepted, facts.precision = command.precision;
+  facts.in_process = command.options.in_process;
+  facts.workers = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 8u));
+  return facts;
+}
+
+CheckOptions check_options(const CheckCommand& command, const RunFacts& facts) {
+  CheckOptions options;
+  options.accepted_rule = command.accepted;
+  options.precision = command.precision == "nearest" ? Precision_ask::nearest
+                      : command.precision == "exact" ? Precision_ask::exact
+                                                     : Precision_ask::normal;
+  options.workers = facts.workers;
+  return options;
 }
 
 /// The first example of each finding as a flat file.
@@ -134,74 +192,7 @@ void write_examples(const CheckCommand& command, CheckResult& result) {
   }
 }
 
-/// Cells of two characters: expected and delivered side by side, wrong samples marked.
-std::string cells(const conformance::Example& e, bool colored) {
-  if (e.got.rgb.empty() || e.pixels.empty()) return {};
-  int x0 = e.pixels.front().x, x1 = x0, y0 = e.pixels.front().y, y1 = y0;
-  for (const WrongPixel& p : e.pixels)
-    x0 = std::min(x0, p.x), x1 = std::max(x1, p.x), y0 = std::min(y0, p.y), y1 = std::max(y1, p.y);
-  x0 = std::max(0, x0 - 2), y0 = std::max(0, y0 - 2);
-  x1 = std::min({e.frame.x - 1, x1 + 2, x0 + 15}), y1 = std::min({e.frame.y - 1, y1 + 2, y0 + 11});
-  std::string text = fmt::format("    {:<{}}   {}\n", "expected", 2 * (x1 - x0 + 1), "yours");
-  for (int y = y1; y >= y0; --y) {
-    text += fmt::format("{:>3} ", y);
-    for (const bool mine : {false, true}) {
-      for (int x = x0; x <= x1; ++x) {
-        const Color c = pixel_at(mine ? e.got : e.expected, x, y);
-        const auto wrong =
-            std::ranges::find_if(e.pixels, [&](const WrongPixel& p) { return p.x == x && p.y == y; });
-        const bool empty = c == e.background;
-        const char* mark = empty ? ". " : "# ";
-        if (mine && wrong != e.pixels.end())
-          mark = wrong->kind == "missing" ? "<>" : wrong->kind == "extra" ? "++" : "!!";
-        if (colored) {
-          text += fmt::format("\033[48;2;{};{};{}m\033[97m{}\033[0m", c[0], c[1], c[2],
-                              mine && wrong != e.pixels.end() ? mark : "  ");
-        } else {
-          text += mark;
-        }
-      }
-      text += mine ? "\n" : "   ";
-    }
-  }
-  return text + fmt::format("    columns {} to {};  <> missing, ++ too many, !! other\n", x0, x1);
-}
-
-std::string report_of(const CheckResult& result, bool colored) {
-  std::string text;
-  for (const Finding& f : result.findings) text += finding_line(f) + "\n";
-  bool first = true;
-  for (const Finding& f : result.findings) {
-    text += fmt::format("\n{} {}: {}\n", f.verdict, f.detail, f.message);
-    if (!f.hint.empty()) text += fmt::format("  hint: {}\n", f.hint);
-    for (const std::string& line : f.trace) text += fmt::format("  at {}\n", line);
-    if (f.examples.empty()) continue;
-    const conformance::Example& e = f.examples.front();
-    if (first) {
-      text += cells(e, colored);
-      first = e.pixels.empty();
-    }
-    if (!e.file.empty()) text += fmt::format("  repeat: {}\n", e.command);
-  }
-  const Summary& s = result.summary;
-  text += fmt::format("{}{}: {} cases, {} failed, {} skipped; {} samples judged, {} wrong, {} open\n",
-                      text.empty() ? "" : "\n", s.verdict, s.cases, s.failed, s.skipped, s.judged, s.wrong,
-                      s.ambiguous);
-  for (const FamilyResult& f : result.families) {
-    text += fmt::format("  {:<7} {:>6} passed {:>5} failed {:>5} skipped{}\n", f.name, f.passed + f.warned,
-                        f.failed, f.skipped, f.skip_reason.empty() ? "" : "  (" + f.skip_reason + ")");
-  }
-  for (const std::string& note : result.notes) text += "note: " + note + "\n";
-  return text;
-}
-
-void run(Session& session, CheckCommand command) {
-  if (command.list) {
-    OutputFile out("-");
-    out.write(list_of(chosen_cases(session, command)));
-    out.commit();
-    return;
-  }
+void refuse_contradictions(const CheckCommand& command) {
   if (command.quick && command.thorough)
     throw Error(ExitStatus::usage, "--quick and --thorough are both given", "give one");
   const bool named = !command.rasterizer.empty() || !command.options.command.empty();
@@ -214,22 +205,41 @@ void run(Session& session, CheckCommand command) {
     throw Error(ExitStatus::usage, "no rasterizer is given",
                 "name a library, a Python script, a rasterizer of `farop plugins`, or --cmd");
   }
+}
+
+void tell(const Session& session, const CheckReports& reports, const CheckResult& result) {
+  write_check_reports(reports, result);
+  if (reports.to_stdout()) return;
+  const bool colored =
+      session.options.color == "always" || (session.options.color == "auto" && ::isatty(STDOUT_FILENO) != 0);
+  OutputFile out("-");
+  out.write(conformance_report::to_terminal(result, reports.words(), colored));
+  out.commit();
+}
+
+void run(Session& session, CheckCommand command) {
+  if (command.list) {
+    OutputFile out("-");
+    out.write(list_of(chosen_cases(session, command)));
+    out.commit();
+    return;
+  }
+  refuse_contradictions(command);
   if (!command.rasterizer.empty()) command.options.name = command.rasterizer;
   const ChosenRasterizer chosen = choose_rasterizer(command.options);
   const std::vector<Case> cases = chosen_cases(session, command);
   begin_check_reports(command.reports);
   const auto begun = std::chrono::steady_clock::now();
+  RunFacts facts = facts_of(command, cases);
+  PrintedLines printed;
   const std::unique_ptr<SubjectMaker> maker =
       !command.emit.empty()     ? make_emitter(command.emit)
       : !command.images.empty() ? make_picture_reader(command.images)
-                                : make_subjects(session, chosen, command.options, command.seed);
-  CheckOptions options;
-  options.accepted_rule = command.accepted;
-  options.precision = command.precision == "nearest" ? Precision_ask::nearest
-                      : command.precision == "exact" ? Precision_ask::exact
-                                                     : Precision_ask::normal;
-  options.workers = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 8u));
+                                : make_subjects(session, chosen, command.options, command.seed, printed);
+  CaseLines lines(command.reports, facts.corpus_hash);
+  CheckOptions options = check_options(command, facts);
   options.progress = session.console.progress("checking");
+  if (!command.reports.jsonl.empty()) options.finished = [&lines](const CaseResult& c) { lines.add(c); };
   CheckResult result = run_check(cases, *maker, options);
   session.console.end_progress();
   if (!command.emit.empty()) {
@@ -238,34 +248,16 @@ void run(Session& session, CheckCommand command) {
     return;
   }
   if (command.images.empty()) {
-    result.plugin = describe_subject(chosen, command.options, result.run.isolation);
+    result.plugin = describe_subject(chosen, command.options, facts.isolation);
   } else {
     result.plugin.kind = "images",
     result.plugin.argument = result.plugin.name = printable(command.images, 4096);
   }
-  result.run.command = fmt::format(
-      "farop check {} --seed {}{}{}",
-      command.options.command.empty() ? command.rasterizer : "--cmd '" + command.options.command + "'",
-      command.seed,
-      command.quick      ? " --quick"
-      : command.thorough ? " --thorough"
-                         : "",
-      command.accepted == "lb" ? "" : " --accept-rule \"" + command.accepted + "\"");
-  for (const std::string& name : command.families) result.run.command += " --family " + name;
-  for (const std::string& name : command.cases) result.run.command += " --case '" + name + "'";
-  result.run.program_version = k_version;
-  result.run.level = command.quick ? "quick" : command.thorough ? "thorough" : "default";
-  result.run.seed = command.seed;
-  result.run.corpus_hash = fmt::format("{:016x}", corpus_hash(cases));
-  result.run.rule = command.accepted, result.run.precision = command.precision;
-  result.run.in_process = command.options.in_process, result.run.workers = options.workers;
-  result.run.time_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  facts.output = printed.text();
+  facts.time_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  result.run = std::move(facts);
   write_examples(command, result);
-  write_check_reports(command.reports, result);
-  OutputFile out(command.reports.to_stdout() ? "/dev/null" : "-");
-  out.write(report_of(result, session.options.color == "always" ||
-                                  (session.options.color == "auto" && ::isatty(STDOUT_FILENO) != 0)));
-  out.commit();
+  tell(session, command.reports, conformance_report::translated(result, command.reports.words()));
   session.console.summary("{}: {} cases ({:.2f} s)", result.plugin.name, result.summary.cases,
                           result.run.time_seconds);
   if (result.has_errors()) throw Error(ExitStatus::input, "");

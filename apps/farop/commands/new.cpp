@@ -263,7 +263,9 @@ void add_new(CommandLine& line) {
       ->required()
       ->type_name("NAME")
       ->group("Output");
+  // FAROP_LANG is the language that is spoken to the user, as of farop check.
   command.add_option("--lang", options->language, "language it is written in")
+      ->envname("FAROP_NEW_LANG")
       ->required()
       ->type_name("c|c++|rust|zig|python|fortran")
       ->group("Rasterizer");

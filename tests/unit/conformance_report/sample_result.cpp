@@ -61,6 +61,9 @@ CheckResult sample_result() {
              {"smoke/quad#0@1", "A square.", CaseStatus::failed, "", {"crash.segv"}, 0, 0, 0, 1},
              {"cov/tri4#17@1", "A triangle.", CaseStatus::failed, "", {"cov.missing"}, 120, 2, 0, 2},
              {"cov/size#0@1", "A frame.", CaseStatus::skipped, "=1+1 \x02 \"too\" large", {}, 0, 0, 0, 0}};
+  r.perf = {{"fill", {64, 128, 256}, {1e-4, 2e-4, 4.2e-4}, {5e-5, 1e-4, 2e-4}, 1.02, 0.98, 1.07, 2, 1.9, 2.2},
+            {"<b>", {1}, {1}, {}, 0, 0, 0, 0, 0, 0}};
+  r.summary.precision = {0.7, 0.5, "within 1", "nearest"};
   r.notes = {"A note."};
   return r;
 }
