@@ -88,10 +88,11 @@ void add_rasterizer_options(CLI::App& command, RasterizerOptions& options) {
       command
           .add_option("--rasterizer", options.name, "internal, scanline, null (draws none), yours [internal]")
           ->type_name("NAME|FILE.so|FILE.py"));
-  group(
-      command.add_option("--threads", options.threads, "processors that the internal rasterizer uses [all]")
-          ->check(CLI::Range(1, 1024))
-          ->type_name("N"));
+  group(command
+            .add_option("--threads", options.threads,
+                        "processors of the internal rasterizer [all]; threads your library may have [1]")
+            ->check(CLI::Range(1, 1024))
+            ->type_name("N"));
   group(command.add_option("--cmd", options.command, "a program: reads a flat file, writes a PPM")
             ->type_name("'PROGRAM {flat} {ppm}'"));
   group(command.add_option("--plugin-option", options.key_values, "an option that your rasterizer asks for")
@@ -145,6 +146,7 @@ IsolationOptions isolation_options(const RasterizerOptions& options, PluginLog l
   limits.wall_seconds = options.wall_seconds.value_or(limits.wall_seconds);
   if (options.memory_megabytes)
     limits.memory_bytes = static_cast<std::uint64_t>(*options.memory_megabytes * 1e6);
+  limits.threads = std::max(options.threads, 1);
   isolation.log = std::move(log);
   isolation.check = options.check;
   return isolation;

@@ -18,7 +18,9 @@ struct RasterizerOptions {
   std::string command;                  ///< --cmd
   std::vector<std::string> key_values;  ///< --plugin-option K=V
   std::vector<std::string> folders;     ///< -I
-  int threads = 0;                      ///< of the internal rasterizer; 0: as many as the machine gives
+  /// Of the internal rasterizer, 0: as many as the machine gives; those a library may have, 0 and 1: no
+  /// other.
+  int threads = 0;
   bool in_process = false;
   bool check = false;
   std::string isolation = "auto";

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <thread>
 
+#include "check_causes.h"
 #include "check_reports.h"
 #include "check_subjects.h"
 #include "command_line.h"
@@ -127,6 +128,7 @@ std::string subject_words(const CheckCommand& command) {
       " " + (r.command.empty() ? shell_word(command.rasterizer) : "--cmd " + shell_word(r.command));
   for (const std::string& folder : r.folders) text += " -I " + shell_word(folder);
   for (const std::string& pair : r.key_values) text += " --plugin-option " + shell_word(pair);
+  if (r.threads > 0) text += fmt::format(" --threads {}", r.threads);
   return text + (r.in_process ? " --in-process" : "");
 }
 
@@ -192,6 +194,21 @@ void write_examples(const CheckCommand& command, CheckResult& result) {
   }
 }
 
+/// Looks for causes by running again what failed.
+void explain(Session& session, const CheckCommand& command, const ChosenRasterizer& chosen,
+             const std::vector<Case>& cases, const CheckOptions& options, CheckResult& result) {
+  const CheckedRun run{session, chosen, command.options, options, command.seed};
+  blame_threads(run, cases, result);
+  // A case that is named with its seed is not there under another one.
+  const auto has_seed = [](const std::string& name) { return name.find('@') != std::string::npos; };
+  if (!result.has_errors() || command.seed == CorpusOptions{}.seed ||
+      std::ranges::any_of(command.cases, has_seed))
+    return;
+  CheckCommand usual = command;
+  usual.seed = CorpusOptions{}.seed;
+  note_seed_dependence(run, chosen_cases(session, usual), result);
+}
+
 void refuse_contradictions(const CheckCommand& command) {
   if (command.quick && command.thorough)
     throw Error(ExitStatus::usage, "--quick and --thorough are both given", "give one");
@@ -242,6 +259,7 @@ void run(Session& session, CheckCommand command) {
   if (!command.reports.jsonl.empty()) options.finished = [&lines](const CaseResult& c) { lines.add(c); };
   CheckResult result = run_check(cases, *maker, options);
   session.console.end_progress();
+  if (named) explain(session, command, chosen, cases, options, result);
   if (!command.emit.empty()) {
     session.console.summary("{}: the flat files of {} cases; draw each as .ppm beside it, then --images {}",
                             command.emit, cases.size(), command.emit);
