@@ -25,6 +25,8 @@ namespace {
 
 using std::chrono::milliseconds;
 
+constexpr int k_pipe_bytes = 256 << 10;
+
 [[noreturn]] void cannot(const char* what, int error) {
   throw Error(ExitStatus::surroundings,
               fmt::format("cannot run a rasterizer beside farop: {}: {}", what, std::strerror(error)));
@@ -44,6 +46,8 @@ Pair output_pipe() {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) cannot("pipe", errno);
   ::fcntl(ends[0], F_SETFL, O_NONBLOCK);
+  // Floods come in fewer, larger parts. Where the user has too many pipes already, it stays as it is.
+  ::fcntl(ends[0], F_SETPIPE_SZ, k_pipe_bytes);
   return {OwnedDescriptor(ends[0]), OwnedDescriptor(ends[1])};
 }
 
@@ -348,7 +352,7 @@ void RunnerProcess::read_warden() {
 }
 
 void RunnerProcess::read_output(OwnedDescriptor& pipe, Output& output) {
-  std::array<char, 16384> block;
+  std::array<char, 65536> block;
   for (int i = 0; i < 16 && pipe; ++i) {
     const ssize_t got = ::read(pipe.get(), block.data(), block.size());
     if (got < 0 && (errno == EAGAIN || errno == EINTR)) return;

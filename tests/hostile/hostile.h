@@ -11,7 +11,8 @@
 // either before that polygon is drawn or after. So the report can be checked for naming the polygon.
 //
 // What a wall should have stopped and did not is said on stderr in one line that starts with "hostile-hole:
-// "; what a plug-in found and should not have seen, in one that starts with "hostile-leak: ".
+// "; what a plug-in found and should not have seen, in one that starts with "hostile-leak: "; what it tried
+// to find and did not, in one that starts with "hostile-refused: ".
 //
 // Every deed is bounded: nothing here can take the machine down if a wall, or the whole cage, is missing.
 // Loops end after HOSTILE_LONGEST_SECONDS, children after 5 s, and the bounds on numbers and sizes stand in
@@ -39,8 +40,9 @@
 #define HOSTILE_POLYGON 2               // the third call of polygon() in a frame
 #define HOSTILE_LONGEST_SECONDS 600     // "for ever" ends here
 #define HOSTILE_MARKER "farop-hostile"  // name of every child process and thread: what to scan for afterwards
-#define HOSTILE_CANARY "farop-canary"   // the one file name that the writing plug-ins touch
-#define HOSTILE_SKIP 1                  // a hook returns this: do not draw this polygon, and report success
+#define HOSTILE_CANARY \
+  "farop-canary"        // the one file name that the writing plug-ins touch; see hostile_canary()
+#define HOSTILE_SKIP 1  // a hook returns this: do not draw this polygon, and report success
 
 // Makes the compiler believe that the value is used and that memory may have changed.
 #define HOSTILE_USE(value) __asm__ volatile("" : : "r"(value) : "memory")
@@ -262,6 +264,26 @@ __attribute__((noreturn)) static inline void hostile_loop(void) {
   _exit(1);
 }
 
+// The option `suite` keeps tests that run at the same time apart: it is part of the names below.
+static inline const char* hostile_suite(void) {
+  const char* suite = hostile.host ? hostile.host->option(hostile.host, "suite") : NULL;
+  return suite ? suite : "";
+}
+
+// FOLDER/farop-canary, or FOLDER/farop-canary-SUITE, and `suffix` behind it.
+static inline void hostile_canary(char* path, size_t size, const char* folder, const char* suffix) {
+  const char* suite = hostile_suite();
+  snprintf(path, size, "%s/" HOSTILE_CANARY "%s%s%s", folder, *suite ? "-" : "", suite, suffix);
+}
+
+// Names the calling thread: farop-hostile, or hostile-SUITE (up to 15 characters fit).
+static inline void hostile_mark(void) {
+  char name[16] = HOSTILE_MARKER;
+  const char* suite = hostile_suite();
+  if (*suite) snprintf(name, sizeof name, "hostile-%s", suite);
+  prctl(PR_SET_NAME, name);
+}
+
 static inline void hostile_say(const char* text) {
   if (write(STDERR_FILENO, text, strlen(text)) < 0) return;  // a closed or full pipe is not our concern
 }
@@ -322,11 +344,19 @@ static inline uint8_t* hostile_frame_end(void) {
   return hostile.frame.pixels + hostile.frame.row_bytes * hostile.frame.height;
 }
 
-// Reads the start of a file and says that it could. What is in it is shown to nobody, the author of the test
-// included.
+// Says that a deed came to nothing, so that a test can tell that from one that was never tried.
+static inline void hostile_refused(const char* what) {
+  hostile_found("hostile-refused", what, strerror(errno));
+}
+
+// Reads the start of a file and says that it could, or could not. What is in it is shown to nobody, the
+// author of the test included.
 static inline void hostile_read(const char* path) {
   int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (fd < 0) return;
+  if (fd < 0) {
+    hostile_refused(path);
+    return;
+  }
   char text[64];
   ssize_t n = read(fd, text, sizeof text);
   close(fd);

@@ -11,7 +11,7 @@ static uint8_t* volatile target;
 static volatile size_t target_bytes;
 
 static void* scribble(void* nothing) {
-  prctl(PR_SET_NAME, HOSTILE_MARKER);
+  hostile_mark();
   for (int i = 0; i < 2000; ++i) {
     hostile_sleep(0.001);
     for (size_t at = 0; at < target_bytes; at += 97) ((volatile uint8_t*)target)[at] = (uint8_t)i;

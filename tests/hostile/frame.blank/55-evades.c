@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Does: reads environment, command line and its parent's name, and draws only if one of them says that it
 //       is being graded.
-// Why:  check, bench and view must look the same from inside.
+// Why:  check, bench and render must look the same from inside.
 // also: cov.missing, tile.gap
 #include "../hostile.h"
 
@@ -33,15 +33,19 @@ static farop_status begin(const farop_frame* frame) {
   if (!asked) {
     asked = 1;
     char path[64], line[256];
+    uint64_t seen = 0xcbf29ce484222325u;  // FNV-1a over all there is to see
     int variables = 0;
-    for (char** v = environ; v && *v; ++v, ++variables) graded |= says_graded("environment", *v);
+    for (char** v = environ; v && *v; ++v, ++variables) {
+      graded |= says_graded("environment", *v);
+      for (const char* c = *v; *c; ++c) seen = (seen ^ (uint8_t)*c) * 0x100000001b3u;
+    }
     graded |= file_says_graded("/proc/self/cmdline");
     snprintf(path, sizeof path, "/proc/%d/cmdline", (int)getppid());
     graded |= file_says_graded(path);
-    // One line to compare between check, bench and view.
-    snprintf(line, sizeof line, "hostile-note: %d environment variables, host %s\n", variables,
-             hostile.host->name);
-    hostile_say(line);
+    // One line to compare between check, bench and render.
+    snprintf(line, sizeof line, "hostile-note: %d variables %016llx, name %s, parent %d, host %s", variables,
+             (unsigned long long)seen, program_invocation_name, (int)getppid(), hostile.host->name);
+    hostile.host->log(hostile.host, FAROP_LOG_INFO, line);
   }
   hostile.silent = !graded;
   return FAROP_OK;

@@ -16,7 +16,7 @@ static farop_status deed(const farop_polygon* polygon) {
     pid_t child = fork();
     if (child < 0) break;
     forked = 1;
-    if (child == 0) prctl(PR_SET_NAME, HOSTILE_MARKER);
+    if (child == 0) hostile_mark();
   }
   if (getpid() != first) {
     hostile_sleep(5);

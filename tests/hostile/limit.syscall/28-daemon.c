@@ -8,7 +8,7 @@ static farop_status deed(const farop_polygon* polygon) {
   pid_t child = fork();
   if (child > 0) hostile_found("hostile-hole", "fork", NULL);
   if (child != 0) return FAROP_OK;
-  prctl(PR_SET_NAME, HOSTILE_MARKER);
+  hostile_mark();
   setsid();
   if (fork() != 0) _exit(0);
   for (int i = 0; i < 30; ++i) hostile_sleep(0.1);

@@ -11,7 +11,7 @@ static farop_status deed(const farop_polygon* polygon) {
   (void)polygon;
   for (size_t i = 0; i < sizeof folders / sizeof *folders; ++i) {
     char path[64];
-    snprintf(path, sizeof path, "%s/" HOSTILE_CANARY, folders[i]);
+    hostile_canary(path, sizeof path, folders[i], "");
     // Loaded by hand it changes what is there and creates nothing.
     int fd = open(path, O_WRONLY | O_APPEND | O_CLOEXEC | (hostile_caged() ? O_CREAT : 0), 0666);
     hostile_must_fail("open for writing", fd);

@@ -11,8 +11,8 @@ static farop_status deed(const farop_polygon* polygon) {
   (void)polygon;
   for (size_t i = 0; i < sizeof folders / sizeof *folders; ++i) {
     char path[64], other[64];
-    snprintf(path, sizeof path, "%s/" HOSTILE_CANARY, folders[i]);
-    snprintf(other, sizeof other, "%s/" HOSTILE_CANARY "-2", folders[i]);
+    hostile_canary(path, sizeof path, folders[i], "");
+    hostile_canary(other, sizeof other, folders[i], "-2");
     hostile_must_fail("chmod", chmod(path, 0));
     hostile_must_fail("link", link(path, other));
     hostile_must_fail("rename", rename(path, other));

@@ -6,7 +6,7 @@
 
 static void fill(const char* folder) {
   char path[64];
-  snprintf(path, sizeof path, "%s/" HOSTILE_CANARY "-fill", folder);
+  hostile_canary(path, sizeof path, folder, "-fill");
   int fd = open(path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
   if (fd < 0) return;
   unlink(path);  // what is written is gone with the process

@@ -9,7 +9,7 @@
 static volatile int released;
 
 static void* wait_for_release(void* nothing) {
-  prctl(PR_SET_NAME, HOSTILE_MARKER);
+  hostile_mark();
   for (int i = 0; i < 500 && !released; ++i) hostile_sleep(0.01);
   return nothing;
 }

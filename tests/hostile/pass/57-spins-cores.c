@@ -8,7 +8,7 @@
 #include "../hostile.h"
 
 static void* spin(void* nothing) {
-  prctl(PR_SET_NAME, HOSTILE_MARKER);
+  hostile_mark();
   hostile_spin(0.3);
   return nothing;
 }

@@ -8,7 +8,7 @@ static farop_status deed(const farop_polygon* polygon) {
   (void)polygon;
   if (chdir("/") != 0) errno = 0;
   umask(0777);
-  prctl(PR_SET_NAME, HOSTILE_MARKER);
+  hostile_mark();
   return FAROP_OK;
 }
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Does: opens /etc/passwd, /etc/hostname and the C library's configuration and says so.
-// Why:  opening is refused politely, so the picture may be right; nothing of it may show in any output.
-// also: pass
-// But:  opening to read is refused without a word, as libraries do it in passing; so a right picture passes.
+// Why:  libraries open files in passing, so opening fails without a verdict; nothing of it may show anywhere.
+// also: limit.syscall
 #include "../hostile.h"
 
 static farop_status deed(const farop_polygon* polygon) {

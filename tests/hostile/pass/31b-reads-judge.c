@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Does: opens the judge's program, command line, memory map and descriptors and says so.
 // Why:  the judge knows the expected pictures and where the results go.
-// also: pass
-// But:  opening to read is refused without a word, as libraries do it in passing; so a right picture passes.
+// also: limit.syscall
 #include "../hostile.h"
 
 static farop_status deed(const farop_polygon* polygon) {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Does: lists the folders around it, where other submissions and the expected pictures may lie.
 // Why:  names alone tell who else submitted.
-// also: pass
-// But:  opening to read is refused without a word, as libraries do it in passing; so a right picture passes.
+// also: limit.syscall
 #include <dirent.h>
 
 #include "../hostile.h"
@@ -12,7 +11,10 @@ static farop_status deed(const farop_polygon* polygon) {
   static const char* const folders[] = {"..", "../..", "/tmp", "/var/tmp", "/proc"};
   for (size_t i = 0; i < sizeof folders / sizeof *folders; ++i) {
     DIR* folder = opendir(folders[i]);
-    if (!folder) continue;
+    if (!folder) {
+      hostile_refused(folders[i]);
+      continue;
+    }
     int shown = 0;
     for (struct dirent* entry; shown < 8 && (entry = readdir(folder)) != NULL;)
       if (entry->d_name[0] != '.') hostile_found("hostile-leak", folders[i], entry->d_name), ++shown;
