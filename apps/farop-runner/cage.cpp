@@ -22,6 +22,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "core/hardware_counters.h"
 #include "core/statistics.h"
@@ -29,6 +30,7 @@
 #include "plugin/host_services.h"
 #include "plugin/plugin_check.h"
 #include "plugin/plugin_library.h"
+#include "plugin/plugin_rasterizer.h"
 #include "plugin/polygon_chunk.h"
 #include "walls.h"
 
@@ -137,6 +139,13 @@ void put(char (&to)[Size], const std::string& text) {
   std::memcpy(to, text.data(), length);
   to[length] = '\0';
 }
+
+/// Of one of the two frames that take turns.
+struct FrameMemory {
+  int fd = -1;
+  std::uint64_t bytes = 0;
+  std::uintptr_t mapped = 0;  ///< where its pages lie; 0: nowhere
+};
 
 class Cage {
  public:
@@ -290,15 +299,15 @@ class Cage {
     memory = {};
   }
 
-  /// Leaves nothing but a reservation of the last frame, so that writing to it is noticed.
+  /// Takes the last frame away, so that writing to it is noticed. Its pages stay where they are, out of
+  /// reach, until their memory is used again: see map_frame().
   void bury_frame() {
     KnownMemory& frame = g_known.frame;
     if (frame.first == 0) return;
     // Where it fails the old mapping stays, which is still outside of the new frame.
-    static_cast<void>(::mmap(pointer(frame.first), frame.end - frame.first, PROT_NONE,
-                             MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_FIXED, -1, 0));
+    static_cast<void>(::mprotect(pointer(frame.first), frame.end - frame.first, PROT_NONE));
     KnownMemory& place = g_known.old_frames[buried_++ % k_old_frames];
-    release(place);
+    release_old(place);
     place = frame;
     frame = {};
     // Large frames: fewer of them.
@@ -307,8 +316,37 @@ class Cage {
     for (unsigned i = 0; i < k_old_frames; ++i) {
       KnownMemory& old = g_known.old_frames[(buried_ - 1 - i) % k_old_frames];
       sum += old.end - old.first;
-      if (sum > most && i > 0) release(old);
+      if (sum > most && i > 0) release_old(old);
     }
+  }
+
+  /// Of a memory that is not used any more: its pages go, its place stays taken.
+  static void forget(FrameMemory& store) {
+    if (store.mapped == 0) return;
+    static_cast<void>(::mmap(pointer(store.mapped), store.bytes, PROT_NONE,
+                             MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_FIXED, -1, 0));
+    store.mapped = 0;
+  }
+
+  void release_old(KnownMemory& old) {
+    for (FrameMemory& store : memories_) {
+      if (store.mapped >= old.first && store.mapped < old.end) store.mapped = 0;
+    }
+    release(old);
+  }
+
+  /// Every frame has an address of its own. The pages that its memory had for an earlier one are moved there,
+  /// which costs less than to map it again; behind them stays what nobody may touch.
+  static bool map_frame(const KnownMemory& known, FrameMemory& store) {
+    const std::uintptr_t place = known.first + k_guard_bytes;
+    const std::uintptr_t before = std::exchange(store.mapped, 0);
+    bool moved = before != 0 &&
+                 ::mremap(pointer(before), store.bytes, store.bytes,
+                          MREMAP_MAYMOVE | MREMAP_FIXED | MREMAP_DONTUNMAP, pointer(place)) != MAP_FAILED;
+    moved = moved && ::mprotect(pointer(place), store.bytes, PROT_READ | PROT_WRITE) == 0;
+    if (!moved && !map(known, store.bytes, PROT_READ | PROT_WRITE, store.fd, 0)) return false;
+    store.mapped = place;
+    return true;
   }
 
   // ---- conversation -------------------------------------------------------------------------------------
@@ -463,6 +501,7 @@ class Cage {
     FrameMemory& store = memories_[request.memory];
     if (memory) {
       if (store.fd >= 0) ::close(store.fd);
+      forget(store);
       store.fd = *memory;
       store.bytes = request.map_bytes;
       memory.reset();
@@ -480,11 +519,12 @@ class Cage {
     if (store.fd >= 0 && request.bytes != 0) {
       KnownMemory& known = g_known.frame;
       known = reserve(store.bytes);
-      if (!map(known, store.bytes, PROT_READ | PROT_WRITE, store.fd, 0)) std::_Exit(k_exit_memory);
+      if (!map_frame(known, store)) std::_Exit(k_exit_memory);
       known.begin += request.offset;
       known.bytes = request.bytes;
       known.live = true;
       frame.pixels = static_cast<std::uint8_t*>(pointer(known.begin));
+      clear_frame(frame);
     }
     answer(Phase::begin_frame, [&] { return table_.begin_frame(self_, &frame); });
   }
@@ -549,11 +589,6 @@ class Cage {
     send(&r, sizeof r);
     std::_Exit(0);
   }
-
-  struct FrameMemory {
-    int fd = -1;
-    std::uint64_t bytes = 0;
-  };
 
   Settings settings_;
   int namespaces_;

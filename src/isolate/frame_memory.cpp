@@ -73,62 +73,30 @@ void FrameMemory::make(std::uint64_t at, std::span<std::byte> bytes) const {
     std::memcpy(bytes.data() + (from - at), reinterpret_cast<const char*>(&value) + (from - word * 8),
                 to - from);
   }
-  const auto row_bytes = static_cast<std::uint64_t>(row_bytes_);
-  const std::uint64_t pixels = 3 * static_cast<std::uint64_t>(shape_.width);
-  const auto height = static_cast<std::uint64_t>(shape_.height);
-  for (std::uint64_t y = at > offset_ ? (at - offset_) / row_bytes : 0; y < height; ++y) {
-    const std::uint64_t row = offset_ + y * row_bytes;
-    if (row >= end) break;
-    const std::uint64_t from = std::max(at, row), to = std::min(end, row + pixels);
-    if (from >= to) continue;
-    // A few pixels by hand, the rest by copying what is there: 48 is whole pixels.
-    std::byte* const out = bytes.data() + (from - at);
-    const std::uint64_t count = to - from;
-    std::uint64_t done = std::min<std::uint64_t>(count, 48);
-    for (std::uint64_t i = 0; i < done; ++i) out[i] = std::byte{shape_.background[(from - row + i) % 3]};
-    for (; done < count; done += std::min(done, count - done)) {
-      std::memcpy(out + done, out, std::min(done, count - done));
-    }
-  }
-}
-
-FrameMemory::Shape FrameMemory::shape_of(const farop_frame& frame) {
-  return {frame.width, frame.height, {frame.background[0], frame.background[1], frame.background[2]}};
-}
-
-void FrameMemory::prepare_ahead(const farop_frame& frame) {
-  if (!memory_ || sent_.empty() || shape_of(frame) != shape_) return;
-  memory_.write(0, sent_);
-  is_ahead_ = true;
 }
 
 bool FrameMemory::prepare(farop_frame& frame) {
-  const Shape shape = shape_of(frame);
-  if (std::exchange(is_ahead_, false) && shape == shape_) {
-    frame.row_bytes = row_bytes_;
-    frame.pixels = nullptr;
-    return false;
-  }
-  row_bytes_ = (3 * std::int64_t{frame.width} + 15) / 16 * 16 + 16;
-  bytes_ = static_cast<std::uint64_t>(row_bytes_ * (frame.height - 1) + 3 * std::int64_t{frame.width});
+  frame.row_bytes = (3 * std::int64_t{frame.width} + 15) / 16 * 16 + 16;
+  frame.pixels = nullptr;
+  bytes_ = static_cast<std::uint64_t>(frame.row_bytes * (frame.height - 1) + 3 * std::int64_t{frame.width});
   const std::uint64_t all = whole_pages(bytes_ + k_apron_bytes);
   offset_ = touches_ == Touches::end ? all - bytes_ : 0;
   const bool is_new = !memory_ || memory_.bytes() != all;
-  const bool alike = !is_new && shape == shape_;
-  shape_ = shape;
+  const std::pair size(frame.width, frame.height);
+  const bool is_alike = std::exchange(size_, size) == size;
+  if (std::exchange(is_intact_, false) && is_alike && !is_new) return false;
   try {
     if (is_new) {
       memory_ = SharedMemory();  // the old one first: never two of them
       sent_ = {}, got_ = {};
       memory_ = SharedMemory("farop-frame", all);
       got_.resize(all);
+      if (all <= k_max_kept) {
+        sent_.resize(all);
+        make(0, sent_);
+      }
     }
-    const bool keep = all <= k_max_kept;
-    if (keep && !alike) {
-      sent_.resize(all);
-      make(0, sent_);
-    }
-    if (keep) {
+    if (!sent_.empty()) {
       memory_.write(0, sent_);
     } else {
       std::vector<std::byte> block(k_block);
@@ -143,8 +111,6 @@ bool FrameMemory::prepare(farop_frame& frame) {
                 fmt::format("not enough memory for a frame of {} x {} pixels", frame.width, frame.height),
                 "use a smaller --resolution or fewer --samples");
   }
-  frame.row_bytes = row_bytes_;
-  frame.pixels = nullptr;
   return is_new;
 }
 
@@ -190,6 +156,7 @@ std::vector<PluginFinding> FrameMemory::fetch(farop_frame& frame) {
   }
   look(offset_ + static_cast<std::uint64_t>(frame.row_bytes * frame.height), memory_.bytes(),
        "oob.write-after", "check coordinates against width and height before you write");
+  is_intact_ = findings.empty();
   return findings;
 }
 

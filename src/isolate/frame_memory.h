@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A frame as the rasterizer gets it, with random bytes wherever it must not write.
+// The memory of a frame, with random bytes wherever the rasterizer must not write.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "isolate/isolation.h"
@@ -27,40 +27,31 @@ class FrameMemory {
   enum class Touches { end, begin };
   FrameMemory(Touches touches, std::uint64_t seed) : touches_(touches), seed_(seed) {}
 
-  /// Makes room for `frame` (row_bytes is set here) and fills it: background, and random bytes elsewhere.
-  /// True: the memory is new.
+  /// Makes room for `frame` (row_bytes is set here), with random bytes around and between its rows; the
+  /// runner fills in the background. True: the memory is new.
   bool prepare(farop_frame& frame);
   /// For a runner that has not had this memory: what an earlier one may have left in it does not count.
-  void forget_preparation() { is_ahead_ = false; }
-  /// Fills it for a frame that will probably be like `frame`, in a moment when there is nothing else to do.
-  /// Nothing happens where that would take new memory.
-  void prepare_ahead(const farop_frame& frame);
+  void distrust() { is_intact_ = false; }
   const SharedMemory& memory() const { return memory_; }
   std::uint64_t offset() const { return offset_; }  ///< of the first pixel
   std::uint64_t bytes() const { return bytes_; }    ///< from the first pixel to the end of the last
 
   /// Fetches what the rasterizer has drawn; `pixels` of the frame is set to the copy, which lives until the
   /// next prepare(). Findings: what was written beside the pixels, at most one of a kind.
+  /// A frame that is never fetched may have spoiled everything: the next prepare() starts from nothing.
   std::vector<PluginFinding> fetch(farop_frame& frame);
 
  private:
-  struct Shape {
-    std::int32_t width = 0, height = 0;
-    std::array<std::uint8_t, 3> background{};
-    friend bool operator==(const Shape&, const Shape&) = default;
-  };
-  static Shape shape_of(const farop_frame& frame);
-  /// What the rasterizer is given, from byte `at` of the memory on.
+  /// The random bytes from byte `at` of the memory on.
   void make(std::uint64_t at, std::span<std::byte> bytes) const;
 
   Touches touches_;
   std::uint64_t seed_;
   SharedMemory memory_;
   std::uint64_t offset_ = 0, bytes_ = 0;
-  std::int64_t row_bytes_ = 0;
-  Shape shape_;                  ///< of the frame
-  bool is_ahead_ = false;        ///< filled already
-  std::vector<std::byte> sent_;  ///< made once for frames alike; empty for large ones
+  std::pair<std::int32_t, std::int32_t> size_;  ///< of the frame
+  bool is_intact_ = false;       ///< the random bytes are there, as they were at the last fetch()
+  std::vector<std::byte> sent_;  ///< made once; empty for large frames
   std::vector<std::byte> got_;
 };
 

@@ -242,7 +242,6 @@ class IsolatedRasterizer::Judge {
     Request request;
     request.kind = RequestKind::end_frame;
     ask(request);
-    if (draws_here()) frames_[1 - memory_in_use_].prepare_ahead(frame_);  // while the runner is still at it
     while (!outstanding_.empty()) attend(true);
     if (draws_here()) {
       for (PluginFinding& finding : frames_[memory_in_use_].fetch(frame_)) add(std::move(finding));
@@ -295,7 +294,7 @@ class IsolatedRasterizer::Judge {
     ring_ = SharedMemory("farop-polygons", k_slot_bytes * k_ring_slots);
     ring_view_ = WritableView(ring_);
     knows_memory_ = {};
-    for (FrameMemory& memory : frames_) memory.forget_preparation();
+    for (FrameMemory& memory : frames_) memory.distrust();
     slot_busy_ = {};
     frames_begun_ = 0;
     has_frame_ = false;

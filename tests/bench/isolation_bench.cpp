@@ -7,11 +7,13 @@
 // Scene gears 8 at 1024 x 1024, and the fastest rasterizer that ships. Twice: polygons from memory, where a
 // second process has nothing to gain, and polygons from the geometry stage, as `farop render` has them. The
 // two sides take turns frame by frame, so that a slow moment of the machine hits both; the median of the
-// ratios of neighbours counts. Starting the runner is shown apart.
+// ratios of neighbours counts. The second line has processor time, of both processes where there are two: on
+// a machine that others use, too, it says more than the clock. Starting the runner is shown apart.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <functional>
 #include <string>
 #include <vector>
@@ -94,27 +96,53 @@ class Stage {
   GeometrySetup setup_;
 };
 
-void compare(const char* what, int rounds, ScreenPolygonSink& here, ScreenPolygonSink& there,
-             const std::function<void(ScreenPolygonSink&)>& play) {
+double cpu_seconds() {
+  timespec t{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+struct Seconds {
+  double elapsed = 0, cpu = 0;
+};
+
+/// Rounds of one kind, and a line about them.
+struct Series {
   std::vector<double> in_process, isolated, ratios;
+
+  void add(double here, double there) {
+    in_process.push_back(here), isolated.push_back(there), ratios.push_back(there / here);
+  }
+  void print(const char* what) {
+    std::sort(ratios.begin(), ratios.end());
+    const auto at = [&](std::size_t tenths) { return ratios[(ratios.size() - 1) * tenths / 10]; };
+    std::printf("%-24s %10.2f ms %10.2f ms   %.3f   (%.3f .. %.3f)   fastest %.2f, %.2f\n", what,
+                1e3 * median(in_process), 1e3 * median(isolated), median(ratios), at(1), at(9),
+                1e3 * *std::min_element(in_process.begin(), in_process.end()),
+                1e3 * *std::min_element(isolated.begin(), isolated.end()));
+  }
+};
+
+void compare(const char* what, int rounds, PluginRasterizer& here, IsolatedRasterizer& there,
+             const std::function<void(ScreenPolygonSink&)>& play) {
+  Series elapsed, cpu;
   const auto timed = [&](ScreenPolygonSink& sink) {
+    const double cpu_begun = cpu_seconds() + there.report().cpu;
     const auto begun = Clock::now();
     play(sink);
-    return seconds_since(begun);
+    const double seconds = seconds_since(begun);
+    return Seconds{seconds, cpu_seconds() + there.report().cpu - cpu_begun};
   };
   for (int round = -3; round < rounds; ++round) {
     // Who goes first changes: the first one finds the caches colder.
     const bool swap = round % 2 != 0;
-    const double first = timed(swap ? there : here), second = timed(swap ? here : there);
+    Seconds first = swap ? timed(there) : timed(here), second = swap ? timed(here) : timed(there);
     if (round < 0) continue;  // memory is touched for the first time
-    in_process.push_back(swap ? second : first);
-    isolated.push_back(swap ? first : second);
-    ratios.push_back(isolated.back() / in_process.back());
+    if (swap) std::swap(first, second);
+    elapsed.add(first.elapsed, second.elapsed), cpu.add(first.cpu, second.cpu);
   }
-  std::sort(ratios.begin(), ratios.end());
-  const auto at = [&](std::size_t tenths) { return ratios[(ratios.size() - 1) * tenths / 10]; };
-  std::printf("%-24s %10.2f ms %10.2f ms   %.3f   (%.3f .. %.3f)\n", what, 1e3 * median(in_process),
-              1e3 * median(isolated), median(ratios), at(1), at(9));
+  elapsed.print(what);
+  cpu.print("  processor time");
 }
 
 void run(int rounds, const std::string& library_path) {

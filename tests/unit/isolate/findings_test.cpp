@@ -103,6 +103,25 @@ TEST(Findings, LargeFramesHaveAnApronToo) {
   EXPECT_EQ(sin_finding("", options_for_tests(), 0, 2, 250).verdict, "pass");
 }
 
+/// The memory is used again: what one frame has spoiled is not told of the next ones.
+TEST(Findings, AreOfTheFrameThatTheyHappenedIn) {
+  for (const char* sin : {"stride", "before", "after"}) {
+    IsolationOptions options = options_for_tests();
+    options.plugin_options["sin"] = sin;
+    options.plugin_options["frame"] = std::string(sin) == "after" ? "1" : "0";  // where no guard page is hit
+    IsolatedRasterizer rasterizer(plugin_path("sinner"), options, {});
+    std::size_t found = 0;
+    for (int i = 0; i < 7; ++i) {
+      try {
+        draw(rasterizer, triangles(16, i == 4 ? 15 : 16, 5, 2));
+      } catch (const PluginFailure&) {
+        ++found;
+      }
+    }
+    EXPECT_EQ(found + rasterizer.findings().size(), 1u) << sin;
+  }
+}
+
 TEST(Findings, LoadingIsPartOfIt) {
   const auto verdict = [](const std::string& path, const std::string& sin) {
     IsolationOptions options = options_for_tests();
