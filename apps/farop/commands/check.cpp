@@ -259,7 +259,8 @@ void run(Session& session, CheckCommand command) {
   if (!command.reports.jsonl.empty()) options.finished = [&lines](const CaseResult& c) { lines.add(c); };
   CheckResult result = run_check(cases, *maker, options);
   session.console.end_progress();
-  if (named) explain(session, command, chosen, cases, options, result);
+  if (command.emit.empty() && command.images.empty())
+    explain(session, command, chosen, cases, options, result);
   if (!command.emit.empty()) {
     session.console.summary("{}: the flat files of {} cases; draw each as .ppm beside it, then --images {}",
                             command.emit, cases.size(), command.emit);
