@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <utility>
 
@@ -56,6 +58,20 @@ SubjectFailure failure_of(const PluginFinding& f) {
   return {f.verdict, f.message, f.hint, f.polygon, f.trace, f.warning};
 }
 
+/// Of calls longer than 2 ms what the processor worked, so that other programs do not count; of short ones,
+/// and where that clock only ticks now and then, the finer one.
+double seconds_between(const StageTime& before, const StageTime& after) {
+  const double elapsed = after.elapsed - before.elapsed;
+  const double worked = after.user + after.system - before.user - before.system;
+  return elapsed > 0.002 && worked > 0.00025 ? std::min(elapsed, worked) : elapsed;
+}
+
+/// What a frame took between two readings.
+double frame_seconds(const PluginTimes& before, const PluginTimes& after) {
+  return seconds_between(before.begin_frame, after.begin_frame) +
+         seconds_between(before.polygon, after.polygon) + seconds_between(before.end_frame, after.end_frame);
+}
+
 // ---- a library in a process of its own --------------------------------------------------------------------
 
 class IsolatedSubject : public Subject {
@@ -76,7 +92,9 @@ class IsolatedSubject : public Subject {
             "unsupported", "it draws elsewhere: there is no picture to judge", "", {}, {}, true};
         return d;
       }
+      const PluginTimes before = rasterizer_->report().runner;
       play(drawing, *rasterizer_);
+      d.seconds = frame_seconds(before, rasterizer_->report().runner);
       d.picture = rasterizer_->take();
     } catch (const PluginFailure& failure) {
       d.failure = failure_of(failure.finding());
@@ -110,6 +128,7 @@ class LibraryMaker : public SubjectMaker {
   }
   Color background() const override { return k_background; }
   bool eight_bit_colors() const override { return true; }
+  bool timed() const override { return true; }
 
  private:
   LoadableRasterizer what_;
@@ -126,7 +145,9 @@ class InProcessSubject : public Subject {
   Delivered draw(const Drawing& drawing) override {
     Delivered d;
     try {
+      const PluginTimes before = rasterizer_.times();
       play(drawing, rasterizer_);
+      d.seconds = frame_seconds(before, rasterizer_.times());
       d.picture = rasterizer_.take();
     } catch (const Error& error) {
       if (error.status() != ExitStatus::plugin) throw;
@@ -156,6 +177,7 @@ class InProcessMaker : public SubjectMaker {
   Color background() const override { return k_background; }
   bool parallel() const override { return false; }
   bool eight_bit_colors() const override { return true; }
+  bool timed() const override { return true; }
 
  private:
   HostServices& services_;
@@ -168,8 +190,10 @@ class InternalSubject : public Subject {
  public:
   explicit InternalSubject(const Color& background) : rasterizer_(options(background)) {}
   Delivered draw(const Drawing& drawing) override {
+    const auto begun = std::chrono::steady_clock::now();
     play(drawing, rasterizer_);
-    return {rasterizer_.take(), {}, {}};
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begun;
+    return {rasterizer_.take(), {}, {}, taken.count()};
   }
 
  private:
@@ -189,6 +213,7 @@ class InternalMaker : public SubjectMaker {
     return std::make_unique<InternalSubject>(background());
   }
   Color background() const override { return k_background; }
+  bool timed() const override { return true; }
 };
 
 class CommandSubject : public Subject {
@@ -367,6 +392,17 @@ std::unique_ptr<SubjectMaker> make_subjects(Session& session, const ChosenRaster
   } catch (const PluginFailure&) {  // the first drawing will say so
   }
   return std::make_unique<LibraryMaker>(what, std::move(options), triangles);
+}
+
+std::unique_ptr<SubjectMaker> make_reference(Session& session, const RasterizerOptions& how,
+                                             PrintedLines& printed) {
+  RasterizerOptions shipped;
+  shipped.name = "trapezoid", shipped.folders = how.folders, shipped.isolation = how.isolation;
+  try {
+    return make_subjects(session, choose_rasterizer(shipped), shipped, 1, printed);
+  } catch (const Error&) {
+    return nullptr;
+  }
 }
 
 PluginFacts describe_subject(const ChosenRasterizer& chosen, const RasterizerOptions& how,

@@ -18,6 +18,10 @@ std::unique_ptr<conformance::SubjectMaker> make_subjects(Session& session, const
                                                          const RasterizerOptions& how, std::uint64_t seed,
                                                          PrintedLines& printed);
 
+/// The depth buffer that comes with farop, for comparing times; null where it is not installed.
+std::unique_ptr<conformance::SubjectMaker> make_reference(Session& session, const RasterizerOptions& how,
+                                                          PrintedLines& printed);
+
 /// Draws right and writes every drawing as a flat file into `folder`: HASH.scr. For rasterizers on other
 /// machines; their pictures are HASH.ppm, in the same folder, on a black background, and their depths, where
 /// they can tell them, HASH.pgm of the maximum ZRES - 1.

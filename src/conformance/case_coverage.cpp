@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cstdlib>
-#include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "conformance/case_kinds.h"
 #include "conformance/shapes.h"
@@ -13,33 +13,30 @@ namespace {
 /// be are taken as meant.
 void collect(const Run& run, const Drawing& drawing, const Framebuffer& picture,
              std::vector<Evidence>& evidence, std::vector<WrongSample>& strays, std::uint64_t& truncated) {
-  std::unordered_map<int, std::vector<std::size_t>> by_color;
-  const auto key = [](int r, int g) { return (r / 8) * 32 + g / 8; };
+  std::vector<std::vector<std::size_t>> by_color(32 * 32);
+  const auto key = [](int r, int g) { return static_cast<std::size_t>(r / 8 * 32 + g / 8); };
   for (std::size_t k = 0; k < drawing.polygons.size(); ++k) {
     const ScreenVertex& v = drawing.polygons[k].front();
     by_color[key(v.r, v.g)].push_back(k);
   }
+  const Color background = run.background();
   for (int y = 0; y < picture.height; ++y) {
     for (int x = 0; x < picture.width; ++x) {
       const Color got = pixel_at(picture, x, y);
-      if (got == run.background()) continue;
-      const auto found = by_color.find(key(got[0], got[1]));
+      if (got == background) continue;
       bool known = false;
-      if (found != by_color.end()) {
-        for (const std::size_t k : found->second) {
-          const ScreenVertex& v = drawing.polygons[k].front();
-          if (std::abs(v.r - got[0]) > 1 || std::abs(v.g - got[1]) > 1 || std::abs(v.b - got[2]) > 1)
-            continue;
-          known = true;
-          if (v.r != got[0] || v.g != got[1] || v.b != got[2]) ++truncated;
-          Bitmap& bits = evidence[k].got;
-          if (bits.window.contains(x, y)) {
-            bits.set(x, y, 1);
-          } else {
-            ++evidence[k].far_away;
-          }
-          break;
+      for (const std::size_t k : by_color[key(got[0], got[1])]) {
+        const ScreenVertex& v = drawing.polygons[k].front();
+        if (std::abs(v.r - got[0]) > 1 || std::abs(v.g - got[1]) > 1 || std::abs(v.b - got[2]) > 1) continue;
+        known = true;
+        if (v.r != got[0] || v.g != got[1] || v.b != got[2]) ++truncated;
+        Bitmap& bits = evidence[k].got;
+        if (bits.window.contains(x, y)) {
+          bits.set(x, y, 1);
+        } else {
+          ++evidence[k].far_away;
         }
+        break;
       }
       if (!known) strays.push_back({x, y, Wrong::extra, -1, -2, got});
     }

@@ -24,6 +24,8 @@ void run_case(Run& run, const Case& c, Subject& subject, Outcome& out, CaseResul
       return run_relation(run, c, subject, out, row);
     case CaseKind::repeat:
       return run_repeat(run, c, out, row);
+    case CaseKind::growth:
+      return run_growth(run, c, out, row);
     case CaseKind::survive:
       for (const Drawing& d : c.drawings) run.picture_of(c, subject, run.maker.as_given(d), out);
       return;

@@ -25,6 +25,8 @@ void run_probe(Run& run, const Case& c, Subject& subject, Outcome& out, CaseResu
 void run_ties(Run& run, const Case& c, Subject& subject, Outcome& out, CaseResult& row);
 void run_relation(Run& run, const Case& c, Subject& subject, Outcome& out, CaseResult& row);
 void run_repeat(Run& run, const Case& c, Outcome& out, CaseResult& row);
+/// In turns with the reference; nothing else should run meanwhile.
+void run_growth(Run& run, const Case& c, Outcome& out, CaseResult& row);
 
 /// One picture of a case, sample by sample.
 void judge_picture(const Run& run, const Case& c, const Drawing& given, const Framebuffer& picture,

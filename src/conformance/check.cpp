@@ -49,6 +49,7 @@ class Checker {
     name_problems(run_, cause_, all_);
     result_.findings = findings_of(run_, all_.problems);
     result_.cases = std::move(rows_);
+    result_.perf = std::move(all_.perf);
     sum_up(corpus_, result_);
     tell_the_rest();
     Summary& s = result_.summary;
@@ -72,6 +73,17 @@ class Checker {
     if (stop_ || !name_coverage_cause(run_, all_, cause_, result_)) return;
     for (const char* family : {"tile", "depth", "colour", "meta", "abi", "scene", "x"}) run_family(family);
     if (options_.repeat) run_family("det");
+    measure_growth();
+  }
+
+  /// One case after another, with nothing beside it, and only where the pictures are right.
+  void measure_growth() {
+    const bool wrong =
+        std::ranges::any_of(all_.problems, [](const Problem& p) { return p.severity == Severity::error; });
+    if (!wrong && cause_.verdict.empty()) return run_family("perf", 1);
+    for (std::size_t i = 0; i < corpus_.size(); ++i) {
+      if (corpus_[i].family == "perf") rows_[i].reason = "times of wrong pictures are not worth measuring";
+    }
   }
 
   std::vector<Unit> units_of(const std::string& family) const {
@@ -86,7 +98,7 @@ class Checker {
     return units;
   }
 
-  void run_family(const std::string& family) {
+  void run_family(const std::string& family, int at_a_time = 64) {
     const std::vector<Unit> units = units_of(family);
     std::vector<Outcome> outcomes(units.size());
     std::atomic<std::size_t> next{0};
@@ -117,7 +129,7 @@ class Checker {
         stop_ = true;
       }
     };
-    const int workers = run_.maker.parallel() ? std::max(1, options_.workers) : 1;
+    const int workers = run_.maker.parallel() ? std::clamp(options_.workers, 1, at_a_time) : 1;
     std::vector<std::thread> threads;
     for (int t = 1; t < workers; ++t) threads.emplace_back(work);
     work();

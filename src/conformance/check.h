@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,10 @@ struct CheckOptions {
   int workers = 1;     ///< lives at a time
   bool shrink = true;  ///< look for the smallest example of each finding
   bool repeat = true;  ///< family det
+  /// What times are compared with: the shipped depth buffer. Null: with nothing. Outlives the run.
+  const SubjectMaker* reference = nullptr;
+  /// Times as long as the reference may a rasterizer take; no value: times are information only.
+  std::optional<double> perf_limit;
   ProgressFunction progress;
   /// Gets each case once, as soon as its verdict is final: those without fault while their family runs, the
   /// others at the end, when causes have been named. By several threads, but one at a time.

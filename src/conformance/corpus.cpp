@@ -46,6 +46,7 @@ std::vector<Case> make_corpus(const CorpusOptions& options) {
     add_color(corpus, options);
     add_relations(corpus, options);
     add_state_and_repeats(corpus, options);
+    add_growth(corpus, options);
   }
   if (options.beyond_contract) add_beyond_contract(corpus, options);
   return corpus;

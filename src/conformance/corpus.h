@@ -23,6 +23,7 @@ enum class CaseKind : std::uint8_t {
   relation,  ///< the second drawing, moved by `shift`, must equal the first within `window`
   state,     ///< drawn one after another in one life; equal drawings give equal pictures
   repeat,    ///< drawn in several processes and memories: bit-equal
+  growth,    ///< the same at several sizes: how the time grows
   survive    ///< outside the contract: must not crash or write outside
 };
 
@@ -35,7 +36,10 @@ struct Case {
   bool expect_nothing_ambiguous = true;
   bool free_interpolation = false;  ///< n-gons with values on no plane: scan-line or any triangulation
   std::vector<Drawing> drawings;
-  Window window;  ///< of a relation
+  std::vector<double> sizes;  ///< of growth: what each drawing has of `unit`
+  std::string unit;           ///< "corners"
+  double growth_limit = 0;    ///< largest exponent of the growth that is nothing special
+  Window window;              ///< of a relation
   int shift_x = 0, shift_y = 0;
 
   std::string id() const;
@@ -48,8 +52,8 @@ struct CorpusOptions {
   bool beyond_contract = false;
 };
 
-/// Everything, in the order in which it is run: smoke, cov, tile, depth, colour, meta, abi, det (and x where
-/// asked for).
+/// Everything, in the order in which it is run: smoke, cov, tile, depth, colour, meta, abi, det, perf (and x
+/// where asked for).
 std::vector<Case> make_corpus(const CorpusOptions& options);
 
 /// Families in order, with a word about each.

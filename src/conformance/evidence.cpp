@@ -50,10 +50,16 @@ struct Score {
   }
 };
 
-/// How well a model explains what differs from the required rule.
-Score score(const std::vector<Evidence>& evidence, const std::vector<Bitmap>& required, const Model& model) {
+constexpr double k_enough_share = 0.95;
+
+/// How well a model explains what differs from the required rule, which are `all_wrong` samples. Incomplete
+/// for one that cannot reach k_enough_share any more.
+Score score(const std::vector<Evidence>& evidence, const std::vector<Bitmap>& required,
+            std::uint64_t all_wrong, const Model& model) {
   Score total;
+  const double hopeless = static_cast<double>(all_wrong) * (1 / k_enough_share - 1);
   for (std::size_t i = 0; i < evidence.size(); ++i) {
+    if (static_cast<double>(total.unexplained + total.invented) > hopeless) break;
     const Evidence& e = evidence[i];
     const Bitmap guess = predicted(e, model);
     for (std::size_t s = 0; s < guess.at.size(); ++s) {
@@ -284,9 +290,9 @@ CoverageCause name_coverage(std::vector<Evidence>& evidence) {
   CoverageCause cause;
   if (wrong == 0) return cause;
   std::optional<CoverageCause> best;
-  double best_share = 0.95;
+  double best_share = k_enough_share;
   const auto consider = [&](const CoverageCause& candidate, const Model& model) {
-    const Score s = score(evidence, required, model);
+    const Score s = score(evidence, required, wrong, model);
     if (s.share() < best_share || (best && s.share() <= best_share)) return;
     best = candidate, best->explained = s.explained, best_share = s.share();
   };

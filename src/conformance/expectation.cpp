@@ -71,18 +71,24 @@ DriftingDepth depth_of(const ExactPolygon& polygon, int x, int y, bool farthest)
 
 }  // namespace
 
-bool Expectation::is_forced(std::uint32_t front, std::uint32_t back, int x, int y) const {
-  const DriftingDepth f = depth_of(polygons_[front], x, y, true), b = depth_of(polygons_[back], x, y, false);
-  // b.n / b.d - f.n / f.d >= 1 + drifts, over the common denominator 65536 f.d b.d.
-  return 65536 * (b.n * f.d - f.n * b.d) >= 65536 * f.d * b.d + b.parts * f.d + f.parts * b.d;
-}
-
+// In front of a polygon at depth b, drift included, another at f is forced iff b.n / b.d - f.n / f.d >= 1 +
+// drifts. That is so for some polygon iff it is for the one whose depth plus drift is smallest: once through
+// all is enough.
 std::vector<std::uint32_t> Expectation::admissible(int x, int y) const {
   const std::span<const std::uint32_t> all = covering(x, y);
+  if (all.size() == 1) return {all[0]};
+  DriftingDepth nearest;
+  bool known = false;
+  for (const std::uint32_t k : all) {
+    const DriftingDepth f = depth_of(polygons_[k], x, y, true);
+    if (known && (65536 * f.n + f.parts) * nearest.d >= (65536 * nearest.n + nearest.parts) * f.d) continue;
+    nearest = f, known = true;
+  }
   std::vector<std::uint32_t> left;
   for (const std::uint32_t k : all) {
+    const DriftingDepth b = depth_of(polygons_[k], x, y, false);
     const bool hidden =
-        std::ranges::any_of(all, [&](std::uint32_t l) { return l != k && is_forced(l, k, x, y); });
+        (65536 * b.n - b.parts - 65536 * b.d) * nearest.d >= (65536 * nearest.n + nearest.parts) * b.d;
     if (!hidden) left.push_back(k);
   }
   return left;

@@ -49,8 +49,6 @@ class Expectation {
   void add_boundary_of(FillRule rule);
 
  private:
-  bool is_forced(std::uint32_t front, std::uint32_t back, int x, int y) const;
-
   const Drawing* drawing_;
   std::vector<ExactPolygon> polygons_;
   std::vector<std::uint32_t> first_, members_;  ///< members of sample i: first_[i] .. first_[i + 1]

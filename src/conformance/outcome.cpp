@@ -11,6 +11,7 @@ void Outcome::add(Outcome other) {
   worst_depth = std::max(worst_depth, other.worst_depth);
   worst_color = std::max(worst_color, other.worst_color);
   for (Problem& p : other.problems) problems.push_back(std::move(p));
+  for (PerfResult& r : other.perf) perf.push_back(std::move(r));
   for (Evidence& e : other.evidence) evidence.push_back(std::move(e));
 }
 

@@ -17,6 +17,7 @@ struct Outcome {
   DepthStatistics depths;
   ColorStatistics colors;
   std::optional<double> worst_depth, worst_color;  ///< nothing: none was measured
+  std::vector<PerfResult> perf;
 
   void add(Outcome other);
 };

@@ -53,8 +53,7 @@ std::vector<int> row_by_spans(const Expectation& expected, int y) {
   std::vector<int> owner(static_cast<std::size_t>(width), -1);
   std::vector<double> depth(static_cast<std::size_t>(width), std::numeric_limits<double>::infinity());
   const auto covers = [&](std::uint32_t k, int x) {
-    const auto all = expected.covering(x, y);
-    return std::ranges::find(all, k) != all.end();
+    return std::ranges::binary_search(expected.covering(x, y), k);
   };
   for (std::uint32_t k = 0; k < expected.polygons().size(); ++k) {
     const Window& w = expected.polygons()[k].masks.window;

@@ -27,6 +27,7 @@ class Run {
   Transform transform;                       ///< undone in every picture
   ConsistentRule rule = ConsistentRule::lb;  ///< which samples belong to a polygon
   std::optional<FillRule> known_rule;        ///< not consistent, but nearly all follows it
+  bool visits_whole_frame = false;           ///< for every polygon: no other time is worth measuring
   bool skip_boundary = false;                ///< no consistent rule: samples on edges are not judged
 
   /// One picture of the right size, or a failure. Throws Error(surroundings) as Subject::draw() does.

@@ -90,6 +90,19 @@ bool is_simple(const Points& ring) {
   return true;
 }
 
+Points double_comb(int teeth) {
+  Points ring;
+  for (int t = 0; t < teeth; ++t) {
+    for (const Point& p : {Point{0, 2}, Point{0, 0}, Point{1, 0}, Point{1, 2}})
+      ring.push_back({2 * t + p.x, p.y});
+  }
+  for (int t = teeth - 1; t >= 0; --t) {
+    for (const Point& p : {Point{1, 3}, Point{1, 5}, Point{0, 5}, Point{0, 3}})
+      ring.push_back({2 * t + p.x, p.y});
+  }
+  return ring;
+}
+
 Points random_simple_polygon(Random& random, int corners, int width, int height) {
   while (true) {
     Points ring;

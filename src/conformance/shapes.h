@@ -36,6 +36,10 @@ bool segments_meet(const Point& a, const Point& b, const Point& c, const Point& 
 /// True for a ring whose edges meet at common corners only, with no corner repeated or straight back.
 bool is_simple(const Points& ring);
 
+/// Teeth of one column with gaps of one column, `teeth` downwards and as many upwards, 5 rows in all: 8
+/// corners and 4 edges across a row for 2 columns, and not much else to do.
+Points double_comb(int teeth);
+
 /// A simple polygon with up to `corners` corners, 0 <= x < width, 0 <= y < height: random points, then
 /// crossing edges are exchanged until none is left. May be concave or convex; counter-clockwise.
 Points random_simple_polygon(Random& random, int corners, int width, int height);

@@ -26,6 +26,7 @@ struct Delivered {
   std::optional<Framebuffer> picture;
   std::optional<SubjectFailure> failure;  ///< then there is no picture
   std::vector<SubjectFailure> remarks;    ///< found beside a picture
+  double seconds = 0;                     ///< inside the rasterizer; 0: not known
 };
 
 /// One life of a rasterizer. draw() throws Error(surroundings) for what the machine cannot do.
@@ -44,6 +45,8 @@ class SubjectMaker {
   /// The drawing in the form that the rasterizer gets: as triangles where it wants those.
   virtual Drawing as_given(const Drawing& drawing) const { return drawing; }
   virtual Color background() const { return k_black; }
+  /// Pictures come with the time that they took.
+  virtual bool timed() const { return false; }
   /// Several lives at a time are possible.
   virtual bool parallel() const { return true; }
   /// Colours have 8 bits whatever the colour resolution.

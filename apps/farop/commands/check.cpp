@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <thread>
 
@@ -34,6 +35,7 @@ struct CheckCommand {
   bool quick = false, thorough = false, list = false, beyond = false;
   std::uint64_t seed = 1;
   std::vector<std::string> families, cases;
+  std::optional<double> perf_limit;
   std::string accepted = "lb", precision = "default", examples, emit, images;
   CheckReports reports;
 };
@@ -144,6 +146,7 @@ std::string repeat_command(const CheckCommand& command) {
   if (command.beyond) text += " --beyond-contract";
   if (command.accepted != "lb") text += " --accept-rule " + shell_word(command.accepted);
   if (command.precision != "default") text += " --precision " + command.precision;
+  if (command.perf_limit) text += fmt::format(" --perf-limit {}", *command.perf_limit);
   for (const std::string& name : command.families) text += " --family " + shell_word(name);
   for (const std::string& name : command.cases) text += " --case " + shell_word(name);
   return text;
@@ -255,6 +258,13 @@ void run(Session& session, CheckCommand command) {
                                 : make_subjects(session, chosen, command.options, command.seed, printed);
   CaseLines lines(command.reports, facts.corpus_hash);
   CheckOptions options = check_options(command, facts);
+  PrintedLines not_told;
+  const std::unique_ptr<SubjectMaker> reference =
+      maker->timed() ? make_reference(session, command.options, not_told) : nullptr;
+  if (command.perf_limit && !reference)
+    throw Error(ExitStatus::usage, "--perf-limit: there is nothing to compare the times with",
+                "it takes a library, and trapezoid beside it (farop plugins)");
+  options.reference = reference.get(), options.perf_limit = command.perf_limit;
   options.progress = session.console.progress("checking");
   if (!command.reports.jsonl.empty()) options.finished = [&lines](const CaseResult& c) { lines.add(c); };
   CheckResult result = run_check(cases, *maker, options);
@@ -322,6 +332,11 @@ void add_check(CommandLine& line) {
   judging(command.add_option("--precision", options->precision, "of depth and colour [default]")
               ->check(CLI::IsMember({"default", "nearest", "exact"}))
               ->type_name("default|nearest|exact"));
+  judging(command
+              .add_option("--perf-limit", options->perf_limit,
+                          "times as long as `trapezoid` may it take; longer is an error")
+              ->check(CLI::PositiveNumber)
+              ->type_name("RATIO"));
   judging(command.add_option("--examples", options->examples, "write the smallest drawings that fail there")
               ->type_name("DIR"));
   add_check_reports(command, options->reports);

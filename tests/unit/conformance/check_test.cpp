@@ -59,7 +59,7 @@ class Simulated : public Subject {
         }
       }
     }
-    return {std::move(picture), {}, {}};
+    return {std::move(picture), {}, {}, 0};
   }
 
  private:
