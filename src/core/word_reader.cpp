@@ -108,7 +108,8 @@ WordReader::WordReader(const std::string& path) : name_(path == "-" ? "<stdin>" 
       if (descriptor_ != STDIN_FILENO) ::close(descriptor_);
       throw Error(ExitStatus::input, fmt::format("{}: is a directory, expected a file", name_));
     }
-    if (S_ISREG(info.st_mode)) total_ = static_cast<std::uint64_t>(info.st_size);
+    is_regular_file_ = S_ISREG(info.st_mode);
+    if (is_regular_file_) total_ = static_cast<std::uint64_t>(info.st_size);
   }
   storage_ = std::make_unique<char[]>(k_capacity);
   data_ = storage_.get();
@@ -125,6 +126,7 @@ WordReader::~WordReader() {
 
 // Moves what is still needed (the unread rest and some context) to the front and reads on. False at the end.
 bool WordReader::fill() {
+  if (feed_ != nullptr) return take_block();
   if (descriptor_ < 0 || at_end_) return false;  // a terminal would go on after its end of file
   const bool first_block = consumed_ == 0 && end_ == 0;
   const std::size_t keep_from = position_ > k_context ? position_ - k_context : 0;
@@ -134,17 +136,54 @@ bool WordReader::fill() {
   std::size_t wanted = std::min(k_block, k_capacity - end_);
   std::size_t got_here = 0;
   for (;;) {
-    const ssize_t got = ::read(descriptor_, storage_.get() + end_, wanted);
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0)
-      throw Error(ExitStatus::input, fmt::format("{}: cannot read: {}", name_, std::strerror(errno)));
-    end_ += static_cast<std::size_t>(got), got_here += static_cast<std::size_t>(got);
-    wanted -= static_cast<std::size_t>(got);
+    const std::size_t got = read_bytes(storage_.get() + end_, wanted);
+    end_ += got, got_here += got;
+    wanted -= got;
     at_end_ = got == 0;
     if (!first_block || got == 0 || end_ >= 3) break;  // the byte order mark may arrive in pieces
   }
   if (first_block && end_ >= 3 && std::memcmp(data_, "\xEF\xBB\xBF", 3) == 0) position_ = 3, line_start_ = 3;
   return got_here > 0;
+}
+
+std::optional<std::string_view> WordReader::text_in_memory() const {
+  if (descriptor_ >= 0) return std::nullopt;
+  return std::string_view(data_, end_).substr(position_);
+}
+
+void WordReader::set_feed(TextFeed* feed) {
+  consumed_ += position_;  // the text read so far is out of sight
+  data_ = nullptr;
+  position_ = end_ = readable_ = 0;
+  at_end_ = feed == nullptr;
+  feed_ = feed;
+}
+
+bool WordReader::take_block() {
+  // Unread bytes are here at the end of the text alone: no other block ends within a word.
+  TextFeed::Block block;
+  if (at_end_ || position_ < end_ || !feed_->next(block)) {
+    at_end_ = true;
+    return false;
+  }
+  const std::uint64_t offset = bytes_read();
+  data_ = block.data;
+  position_ = block.begin, end_ = block.end, readable_ = block.readable;
+  consumed_ = offset - position_;
+  if (progress_) progress_(offset, total_);
+  if (offset == 0 && std::string_view(data_ + position_, end_ - position_).substr(0, 3) == "\xEF\xBB\xBF") {
+    position_ += 3, line_start_ = 3;
+  }
+  return true;
+}
+
+std::size_t WordReader::read_bytes(char* to, std::size_t most) {
+  for (;;) {
+    const ssize_t got = ::read(descriptor_, to, most);
+    if (got >= 0) return static_cast<std::size_t>(got);
+    if (errno == EINTR) continue;
+    throw Error(ExitStatus::input, fmt::format("{}: cannot read: {}", name_, std::strerror(errno)));
+  }
 }
 
 void WordReader::end_line(char c) {
@@ -300,11 +339,10 @@ std::string_view WordReader::text_from(const Word& word) const {
   return {data_ + start, end_ - start};
 }
 
-Word WordReader::place_behind(const Word& word, std::size_t bytes) const {
-  const std::string_view passed = text_from(word).substr(0, bytes);
+Word WordReader::place_behind(const Word& from, std::string_view passed) {
   const std::uint64_t lines = count_line_ends(passed);
-  const std::uint64_t column = lines == 0 ? word.column + bytes : bytes - passed.rfind('\n');
-  return {{}, word.line + lines, column, word.offset + bytes};
+  const std::uint64_t column = lines == 0 ? from.column + passed.size() : passed.size() - passed.rfind('\n');
+  return {{}, from.line + lines, column, from.offset + passed.size()};
 }
 
 void WordReader::go_to(const Word& place) {
@@ -325,7 +363,7 @@ Diagnostic WordReader::diagnostic(Severity severity, const Word& word, std::stri
   const std::size_t start = static_cast<std::size_t>(word.offset - consumed_);
   const std::uint64_t before =
       std::min({word.column - 1, std::uint64_t{start}, std::uint64_t{k_excerpt_side}});
-  const char* const end = data_ + std::min(end_, start + k_excerpt_side);
+  const char* const end = data_ + std::min(std::max(end_, readable_), start + k_excerpt_side);
   const auto ends_line = [](char c) { return c == '\n' || c == '\r'; };
   const char* line_end = std::find_if(data_ + start, end, ends_line);
   d.excerpt.assign(data_ + start - before, line_end);

@@ -5,12 +5,14 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
 #include "core/diagnostics.h"
 #include "core/progress.h"
+#include "core/text_feed.h"
 
 namespace farop {
 
@@ -69,13 +71,23 @@ class WordReader {
   void take(const IntegerLine& line);
   /// What is at hand of the text from the first byte of `word` on, the one that next() delivered last.
   std::string_view text_from(const Word& word) const;
-  /// The place `bytes` bytes behind the first byte of `word`, all of them at hand and without a CR that does
-  /// not stand in front of an LF. Without a text.
-  Word place_behind(const Word& word, std::size_t bytes) const;
+  /// The place behind `passed`, a text that begins where `from` does and has no CR that does not stand in
+  /// front of an LF. Without a text.
+  static Word place_behind(const Word& from, std::string_view passed);
   /// Goes on at a place at hand, behind the last byte of a word.
   void go_to(const Word& place);
   /// A second character that starts a comment where a word could start ('%' in the AFF dialect), 0 for none.
   void set_second_comment_character(char c) { second_comment_ = c; }
+
+  /// Text in memory, without a byte order mark; nothing where this reader reads a file.
+  std::optional<std::string_view> text_in_memory() const;
+  /// The next bytes of the file as they are; 0 at its end. For a feed.
+  std::size_t read_bytes(char* to, std::size_t most);
+  /// Whether the file is there as a whole: no pipe, no terminal.
+  bool is_regular_file() const { return is_regular_file_; }
+  /// From now on the text comes from `feed` (not owned), which begins where this reader stands; to be called
+  /// before the first word is read. With nullptr at last: the text has ended.
+  void set_feed(TextFeed* feed);
 
   const std::string& name() const { return name_; }
   std::uint64_t bytes_read() const { return consumed_ + position_; }
@@ -98,6 +110,7 @@ class WordReader {
   bool look_ahead(std::size_t room, Ahead& ahead) const;
   void go_to(const char* behind_word, const Ahead& ahead);
   bool fill();
+  bool take_block();
   std::uint64_t column() const { return consumed_ + position_ - line_start_ + 1; }
   void end_line(char c);
   void skip_comment();
@@ -109,6 +122,7 @@ class WordReader {
   const char* data_ = nullptr;
   std::size_t position_ = 0;  ///< next byte in data_
   std::size_t end_ = 0;
+  std::size_t readable_ = 0;    ///< bytes behind end_ that messages may show, counted from data_; 0: none
   std::uint64_t consumed_ = 0;  ///< file offset of data_[0]
   std::uint64_t line_ = 1;
   std::uint64_t line_start_ = 0;  ///< file offset of the current line
@@ -116,6 +130,8 @@ class WordReader {
   bool last_was_cr_ = false;
   bool word_was_cut_ = false;
   bool at_end_ = false;
+  bool is_regular_file_ = false;
+  TextFeed* feed_ = nullptr;
   char second_comment_ = 0;
   ProgressFunction progress_;
 };

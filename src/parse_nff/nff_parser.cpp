@@ -2,6 +2,9 @@
 #include "parse_nff/nff_parser.h"
 
 #include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -44,8 +47,8 @@ bool outside_unit_range(double v) {
 
 }  // namespace
 
-Parser::Parser(WordReader& reader, DiagnosticSink& sink, const NffOptions& options)
-    : reader_(reader), sink_(sink), options_(options) {
+Parser::Parser(WordReader& reader, DiagnosticSink& sink, const NffOptions& options, ReadAhead* ahead)
+    : reader_(reader), sink_(sink), options_(options), ahead_(ahead) {
   reader_.set_second_comment_character('%');
   if (options_.progress) reader_.set_progress(options_.progress);
   object_->name = std::filesystem::path(reader_.name()).stem().string();
@@ -87,11 +90,13 @@ bool Parser::plain_run(const Word& keyword) {
   const bool is_fill = keyword.text == "f";
   if (options_.plain || !(is_fill || keyword.text == "p" || keyword.text == "pp")) return false;
   if (!is_fill && !has_objects_ && !has_fill_) return false;  // that will be remarked upon
+  if (ahead_ != nullptr && take_run_ahead()) return true;
   if (plain_pause_ > 0) {
     --plain_pause_;
     return false;
   }
-  const std::string_view text = reader_.text_from(word_);
+  std::string_view text = reader_.text_from(word_);
+  if (ahead_ != nullptr) text = text.substr(0, ahead_->next_run() - word_.offset);
   const char* const end = text.data() + text.size();
   const PlainRun run = plain_runs_.read(text.data(), {end, end}, builder_, [this](const Material& material) {
     has_fill_ = true;
@@ -103,18 +108,50 @@ bool Parser::plain_run(const Word& keyword) {
   }
   plain_pause_length_ = 0;
   const auto place = [&](const char* at) {
-    return reader_.place_behind(word_, static_cast<std::size_t>(at - text.data()));
+    return WordReader::place_behind(word_, text.substr(0, static_cast<std::size_t>(at - text.data())));
   };
-  Word last = run.last_keyword != nullptr ? place(run.last_keyword) : Word();
+  end_run(run, run.last_keyword != nullptr ? place(run.last_keyword) : Word(), place(run.behind));
+  return true;
+}
+
+bool Parser::take_run_ahead() {
+  RunAhead* const run = ahead_->run_at(word_.offset);
+  if (run == nullptr) return false;
+  for (RunAhead::Part& part : run->parts) {
+    if (part.fill) {
+      has_fill_ = true;
+      start_surface(*part.fill);
+    }
+    if (part.surface == nullptr) continue;
+    const bool complete = &part != &run->parts.back();
+    if (complete && builder_.empty()) {
+      part.surface->material = builder_.material();
+      object_->surfaces.push_back(std::move(part.surface));
+    } else {
+      builder_.append(*part.surface);
+      part.surface.reset();
+    }
+  }
+  const auto place = [&](const Word& relative) {
+    return Word{{},
+                word_.line + relative.line,
+                relative.column + (relative.line == 0 ? word_.column : 0),
+                word_.offset + relative.offset};
+  };
+  end_run(PlainRun(run->entities), place(run->last_keyword), place(run->behind));
+  return true;
+}
+
+void Parser::end_run(const PlainRun& run, const Word& last_keyword, const Word& behind) {
+  Word last = last_keyword;
   last.text = run.last_is_patch ? "pp" : "p";
   entity_ = run.ends_with_fill ? "f" : last.text;
-  reader_.go_to(place(run.behind));
   summary_.polygons += run.polygons, summary_.patches += run.patches;
-  has_objects_ = has_objects_ || run.last_keyword != nullptr;
+  has_objects_ = has_objects_ || run.last_corners > 0;
+  reader_.go_to(behind);
   advance();
   if (!run.ends_with_fill)
     end_corners(last, run.last_corners, run.last_is_patch ? k_patch_corners : k_polygon_corners);
-  return true;
 }
 
 std::span<const Parser::Keyword> Parser::format_keywords() {
@@ -697,7 +734,19 @@ void Parser::fail_long_polygon(const Word& keyword, std::int64_t count, CornerFo
 
 std::optional<Scene> parse_nff(WordReader& reader, DiagnosticSink& sink, const NffOptions& options) {
   try {
-    return nff::Parser(reader, sink, options).parse();
+    if (options.threads < 2 || options.plain || !nff::ReadAhead::worthwhile(reader, options.piece_bytes))
+      return nff::Parser(reader, sink, options).parse();
+    // More threads than the machine has processors only when asked for.
+    const tbb::global_control allow_more(
+        tbb::global_control::max_allowed_parallelism,
+        static_cast<std::size_t>(std::max(options.threads, tbb::info::default_concurrency())));
+    tbb::task_arena arena(options.threads);
+    std::optional<Scene> scene;
+    arena.execute([&] {
+      nff::ReadAhead ahead(reader, options.threads, options.piece_bytes);
+      scene = nff::Parser(reader, sink, options, &ahead).parse();
+    });
+    return scene;
   } catch (const nff::ParsingFailed&) {
     return std::nullopt;
   }

@@ -19,6 +19,7 @@
 
 #include "core/word_reader.h"
 #include "parse_nff/nff_plain_run.h"
+#include "parse_nff/nff_read_ahead.h"
 #include "parse_nff/parse_nff.h"
 #include "scene/scene.h"
 #include "scene/surface_builder.h"
@@ -30,7 +31,8 @@ struct ParsingFailed {};
 
 class Parser {
  public:
-  Parser(WordReader& reader, DiagnosticSink& sink, const NffOptions& options);
+  /// ahead   what reads ahead for this parser (it feeds the reader), or nullptr
+  Parser(WordReader& reader, DiagnosticSink& sink, const NffOptions& options, ReadAhead* ahead = nullptr);
 
   Scene parse();
 
@@ -68,6 +70,8 @@ class Parser {
   static const Keyword* find_keyword(std::string_view text);
 
   bool plain_run(const Word& keyword);
+  bool take_run_ahead();
+  void end_run(const PlainRun& run, const Word& last_keyword, const Word& behind);
 
   // Words and numbers.
   void advance() { at_end_ = !reader_.next(word_); }
@@ -172,6 +176,7 @@ class Parser {
   std::shared_ptr<Object> object_ = std::make_shared<Object>();
   InputSummary summary_;
   SurfaceBuilder builder_;
+  ReadAhead* ahead_;
   PlainRunReader plain_runs_;
   std::uint32_t plain_pause_ = 0;  ///< entities to read before a run is tried again
   std::uint32_t plain_pause_length_ = 0;

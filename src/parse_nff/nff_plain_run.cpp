@@ -94,9 +94,9 @@ const char* PlainRunReader::read_numbers(const char* at, const PlainText& text, 
       if (behind == nullptr || text.readable - behind < 2) return nullptr;
     }
     if (++number == end) return behind <= text.end ? behind : nullptr;
-    at = behind + 1;
-    if (static_cast<unsigned char>(*at) <= ' ' && (at = next_word(behind, text.readable)) == nullptr)
-      return nullptr;
+    at = behind + 1;  // mostly
+    const bool sure = *behind != '\r' && static_cast<unsigned char>(*at) > ' ';
+    if (!sure && (at = next_word(behind, text.readable)) == nullptr) return nullptr;
   }
 }
 

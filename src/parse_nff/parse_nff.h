@@ -2,6 +2,7 @@
 // Reads scenes in NFF, the Neutral File Format of E. Haines (document version 3.9, 1996).
 #pragma once
 
+#include <cstddef>
 #include <optional>
 
 #include "core/diagnostics.h"
@@ -14,6 +15,8 @@ namespace farop {
 struct NffOptions {
   ProgressFunction progress;  ///< called with bytes read so far and bytes in all, once per block of input
   bool plain = false;         ///< the plain reader alone: same scene, same messages, slower; for comparison
+  int threads = 1;  ///< that read at once; more than one helps with long files and texts, not with pipes
+  std::size_t piece_bytes = std::size_t{1} << 18;  ///< of the text that a thread looks at as a unit
   int warnings_per_kind = 3;  ///< further ones are only counted, in one closing line per kind
 };
 
@@ -29,7 +32,10 @@ struct NffOptions {
 /// returns  nothing after an error was reported to `sink`
 /// throws   Error(ExitStatus::input) from the reader when the file cannot be read
 ///
-/// Memory grows with what was read, never with a count that the file merely announces.
+/// Scene and messages do not depend on `threads` and `piece_bytes`.
+///
+/// Memory grows with what was read, never with a count that the file merely announces. While reading, threads
+/// > 1 need some MB beside (nff_read_ahead.h), fixed by their number and `piece_bytes`.
 std::optional<Scene> parse_nff(WordReader& reader, DiagnosticSink& sink, const NffOptions& options = {});
 
 }  // namespace farop

@@ -35,6 +35,8 @@ class SurfaceBuilder {
   void add(const Sphere& sphere);
   void add(const Cone& cone);
 
+  /// Of the surface that is being built.
+  const Material& material() const { return material_; }
   bool empty() const { return polygons_.empty() && curved_.empty(); }
   /// The finished surface, its memory exactly what it holds; the builder is empty afterwards and keeps its
   /// table for reuse.

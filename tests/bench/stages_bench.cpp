@@ -23,7 +23,7 @@ struct SceneName {
   const char* name;
   int size;
 };
-constexpr SceneName k_scenes[] = {{"gears", 4}, {"gears", 8}, {"mount", 8}, {"balls", 4}};
+constexpr SceneName k_scenes[] = {{"gears", 4}, {"gears", 8}, {"mount", 8}, {"balls", 4}, {"tetra", 9}};
 
 /// Text of a scene; balls in its tessellated form, so that there is text to parse and polygons to draw.
 const std::string& text_of(const SceneName& scene) {
@@ -39,10 +39,12 @@ const std::string& text_of(const SceneName& scene) {
   return text;
 }
 
-Scene parse(const std::string& text) {
+Scene parse(const std::string& text, int threads = 1) {
   WordReader reader(text, "bench");
   DiagnosticList messages;
-  return parse_nff(reader, messages).value();
+  NffOptions options;
+  options.threads = threads;
+  return parse_nff(reader, messages, options).value();
 }
 
 struct Prepared {
@@ -105,6 +107,13 @@ constexpr auto k_rate = Counter::kIsIterationInvariantRate;
 void parsing(benchmark::State& state, const SceneName& name) {
   const std::string& text = text_of(name);
   for (auto _ : state) benchmark::DoNotOptimize(parse(text));
+  state.counters["MB/s"] = Counter(static_cast<double>(text.size()) * 1e-6, k_rate);
+}
+
+/// The rate is by the clock on the wall; the column of CPU time is that of both threads.
+void parsing_on_two_threads(benchmark::State& state, const SceneName& name) {
+  const std::string& text = text_of(name);
+  for (auto _ : state) benchmark::DoNotOptimize(parse(text, 2));
   state.counters["MB/s"] = Counter(static_cast<double>(text.size()) * 1e-6, k_rate);
 }
 
@@ -193,6 +202,10 @@ int main(int argc, char** argv) {
       benchmark::RegisterBenchmark((stage + name).c_str(), run, scene)->Unit(benchmark::kMillisecond);
     };
     add("parse", parsing);
+    benchmark::RegisterBenchmark(("parse_2_threads" + name).c_str(), parsing_on_two_threads, scene)
+        ->Unit(benchmark::kMillisecond)
+        ->MeasureProcessCPUTime()
+        ->UseRealTime();
     add("geometry", geometry);
     add("flat_write", flat_writing);
     add("flat_read", flat_reading);
