@@ -2,7 +2,8 @@
 #include "shading/reflection.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "shading/power.h"
 
 namespace farop {
 
@@ -24,7 +25,7 @@ Rgb reflect(const Material& material, std::span<const LightSource> lights, const
     if (material.ks != 0) {
       const V3d mirrored = 2 * n_dot_l * normal - to_light;
       const double r_dot_v = std::max(0.0, mirrored.dot(to_eye));
-      sum += arriving * (material.ks * std::pow(r_dot_v, material.shine));
+      sum += arriving * (material.ks * highlight_power(r_dot_v, material.shine));
     }
   }
   return clamp01(sum);
