@@ -1,22 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The geometry stage: scene -> screen polygons. This is the whole stage on one page; every step is a file of
-// its own.
-//
-// Source: the FAROP system (1997), figure 4: per surface polygon normals, back-face removal, vertex normals;
-// per polygon clipping, perspective, reflection model, triangulation, device mapping, hand-over.
+// The geometry stage: scene -> screen polygons. plain_stage.h has its steps on one page, batched/ the same
+// for many polygons at once.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "core/progress.h"
 #include "core/screen_polygon.h"
 #include "core/statistics.h"
+#include "geometry/clip.h"
 #include "geometry/viewport.h"
 #include "scene/scene.h"
 #include "shading/light.h"
 
 namespace farop {
+
+/// batched: many polygons at once, with vectors and threads. plain: polygon by polygon, the readable
+/// definition of the same result.
+enum class GeometryPath : std::uint8_t { batched, plain };
 
 /// What the command line can ask of the stage.
 struct GeometryOptions {
@@ -26,6 +29,10 @@ struct GeometryOptions {
   double light_intensity = 1;  ///< of a light without a colour
   bool light_at_eye = true;    ///< a white light at the eye for a scene without lights
   bool unlit = false;          ///< black instead of lighting: where depths alone count
+  GeometryPath path = GeometryPath::batched;
+  /// That work on the batched path, the caller's included; the result is the same for any number. The sink is
+  /// called by the caller's thread alone, as are shaders that are not pure.
+  int threads = 1;
 };
 
 /// The fixed part of a frame: where the eye is and what the frustum is mapped to.
@@ -38,6 +45,9 @@ struct GeometrySetup {
   double nearest_depth = 0,
          farthest_depth = 0;  ///< of integer depths: hither and yon unless the camera fits them
   ShadingFrame shading;
+
+  DeviceMapping device_mapping() const { return {viewport, tangents, nearest_depth, farthest_depth}; }
+  Frustum frustum() const { return {tangents.x, tangents.y, hither, yon}; }
 };
 
 /// Completes a frame: near plane, yon (`auto`: farthest vertex times 1.000001, twice hither where that is not
@@ -60,7 +70,7 @@ struct GeometryReport {
 };
 
 /// Runs the stage over the whole tree, top-down, in order, and hands batches to `sink` (begin_frame ..
-/// end_frame). Memory: one batch, some hundred kilobytes, or the largest polygon.
+/// end_frame). Memory: one batch, some hundred kilobytes, for every thread, or the largest polygon.
 GeometryReport run_geometry(const Scene& scene, const GeometrySetup& setup, const GeometryOptions& options,
                             ScreenPolygonSink& sink, GeometryClocks& clocks,
                             const ProgressFunction& progress = {});

@@ -22,8 +22,9 @@ ViewTangents view_tangents(const Camera& camera, const Viewport& viewport) {
 }
 
 DeviceMapping::DeviceMapping(const Viewport& viewport, const ViewTangents& tangents, double nearest,
-                             double farthest)
-    : nearest_(nearest), y_down_(viewport.y_down) {
+                             double farthest) {
+  terms_.nearest = nearest;
+  terms_.y_down = viewport.y_down;
   const double unit = std::ldexp(1.0, viewport.subpixel_bits);
   const auto map_axis = [&](int pixels, double tangent, double& scale, double& offset, double& low,
                             double& high) {
@@ -36,27 +37,28 @@ DeviceMapping::DeviceMapping(const Viewport& viewport, const ViewTangents& tange
     low = -border;
     high = unit * (pixels - 1) + border;
   };
-  map_axis(viewport.resolution.x, tangents.x, scale_x_, offset_x_, low_x_, high_x_);
-  map_axis(viewport.resolution.y, tangents.y, scale_y_, offset_y_, low_y_, high_y_);
-  depth_scale_ = std::isinf(farthest) ? 1 : farthest / (farthest - nearest);
-  depth_max_ = static_cast<double>(viewport.resolution.z - 1);
-  color_max_ = viewport.resolution.color - 1;
+  map_axis(viewport.resolution.x, tangents.x, terms_.scale_x, terms_.offset_x, terms_.low_x, terms_.high_x);
+  map_axis(viewport.resolution.y, tangents.y, terms_.scale_y, terms_.offset_y, terms_.low_y, terms_.high_y);
+  terms_.depth_scale = std::isinf(farthest) ? 1 : farthest / (farthest - nearest);
+  terms_.depth_max = static_cast<double>(viewport.resolution.z - 1);
+  terms_.color_max = viewport.resolution.color - 1;
 }
 
 ScreenVertex DeviceMapping::to_device(const V3d& position, const Rgb& color) const {
+  const Terms& t = terms_;
   const double inverse = 1 / position.z;
   const auto place = [](double v, double low, double high) {
     const double rounded = round_half_up(v);
     return static_cast<std::int32_t>(rounded > low ? std::min(rounded, high) : low);  // NaN becomes low
   };
   const auto shade = [&](double c) {
-    return static_cast<std::uint16_t>(place(c * color_max_, 0, color_max_));
+    return static_cast<std::uint16_t>(place(c * t.color_max, 0, t.color_max));
   };
   ScreenVertex v;
-  v.x = place(offset_x_ + scale_x_ * (position.x * inverse), low_x_, high_x_);
-  v.y = place(offset_y_ + scale_y_ * (position.y * inverse), low_y_, high_y_);
-  if (y_down_) v.y = static_cast<std::int32_t>(low_y_ + high_y_) - v.y;
-  v.z = place(depth_scale_ * (1 - nearest_ * inverse) * depth_max_, 0, depth_max_);
+  v.x = place(t.offset_x + t.scale_x * (position.x * inverse), t.low_x, t.high_x);
+  v.y = place(t.offset_y + t.scale_y * (position.y * inverse), t.low_y, t.high_y);
+  if (t.y_down) v.y = static_cast<std::int32_t>(t.low_y + t.high_y) - v.y;
+  v.z = place(t.depth_scale * (1 - t.nearest * inverse) * t.depth_max, 0, t.depth_max);
   v.r = shade(color.r);
   v.g = shade(color.g);
   v.b = shade(color.b);

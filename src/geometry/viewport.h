@@ -42,6 +42,15 @@ ViewTangents view_tangents(const Camera& camera, const Viewport& viewport);
 /// IEEE CG&A 12(4), 1992).
 class DeviceMapping {
  public:
+  /// The numbers of the mapping: device = offset + scale * x_e / z_e, rounded and limited to low .. high.
+  struct Terms {
+    double scale_x = 0, offset_x = 0, low_x = 0, high_x = 0;
+    double scale_y = 0, offset_y = 0, low_y = 0, high_y = 0;
+    double depth_scale = 1, nearest = 0, depth_max = 0;
+    double color_max = 0;
+    bool y_down = false;
+  };
+
   /// Depths `nearest` .. `farthest` are spread over 0 .. ZRES-1. 0 < nearest < farthest; the latter may be
   /// +infinity.
   DeviceMapping(const Viewport& viewport, const ViewTangents& tangents, double nearest, double farthest);
@@ -50,12 +59,10 @@ class DeviceMapping {
   /// rounding noise. `color` 0..1 per channel becomes 0..CRES-1. position.z > 0.
   ScreenVertex to_device(const V3d& position, const Rgb& color) const;
 
+  const Terms& terms() const { return terms_; }
+
  private:
-  double scale_x_, offset_x_, scale_y_, offset_y_;  ///< device = offset + scale * x_e / z_e, before rounding
-  double low_x_, high_x_, low_y_, high_y_;
-  double depth_scale_, nearest_;
-  double depth_max_, color_max_;
-  bool y_down_;
+  Terms terms_;
 };
 
 }  // namespace farop

@@ -97,6 +97,7 @@ class PatternShader : public Shader {
   bool opaque() const override;
   bool invisible() const override;
   bool is_procedural() const override { return true; }
+  bool is_pure() const override { return true; }
   /// The pattern's mean colour.
   Material approximate(std::vector<std::string>* lost = nullptr) const override;
   std::string describe() const override;
@@ -122,6 +123,7 @@ class BumpyShader : public Shader {
   Shaded shade(const ShadingPoint& point, const ShadingFrame& frame) const override;
   bool opaque() const override { return inner_->opaque(); }
   bool invisible() const override { return inner_->invisible(); }
+  bool is_pure() const override { return inner_->is_pure(); }
   bool is_procedural() const override { return true; }
   Material approximate(std::vector<std::string>* lost = nullptr) const override;
   std::string describe() const override;

@@ -23,7 +23,7 @@ struct Shaded {
   Rgb opacity{1, 1, 1};  ///< 1: nothing behind is seen
 };
 
-/// Colour and opacity of the points of a surface. Called from one thread at a time.
+/// Colour and opacity of the points of a surface. Called from one thread at a time unless is_pure().
 class Shader {
  public:
   virtual ~Shader() = default;
@@ -38,6 +38,9 @@ class Shader {
   virtual bool is_procedural() const { return false; }
   /// shade() looks at ShadingPoint::texture.
   virtual bool wants_texture() const { return is_procedural(); }
+  /// shade() depends on its arguments alone and may be called by several threads at once, for any point any
+  /// number of times.
+  virtual bool is_pure() const { return false; }
   /// The nearest that NFF's `f` can say. What it cannot is added to `lost`, one phrase each, if that is
   /// given.
   virtual Material approximate(std::vector<std::string>* lost = nullptr) const = 0;

@@ -70,6 +70,7 @@ class BasicShader : public Shader {
   Shaded shade(const ShadingPoint& point, const ShadingFrame& frame) const override;
   bool opaque() const override;
   bool invisible() const override;
+  bool is_pure() const override { return true; }
   Material approximate(std::vector<std::string>* lost = nullptr) const override;
   std::string describe() const override;
 
@@ -85,6 +86,7 @@ class PhongShader : public Shader {
   Shaded shade(const ShadingPoint& point, const ShadingFrame& frame) const override;
   bool opaque() const override;
   bool invisible() const override;
+  bool is_pure() const override { return true; }
   Material approximate(std::vector<std::string>* lost = nullptr) const override;
   std::string describe() const override;
 
@@ -100,6 +102,7 @@ class StraussShader : public Shader {
   Shaded shade(const ShadingPoint& point, const ShadingFrame& frame) const override;
   bool opaque() const override;
   bool invisible() const override;
+  bool is_pure() const override { return true; }
   Material approximate(std::vector<std::string>* lost = nullptr) const override;
   std::string describe() const override;
 
