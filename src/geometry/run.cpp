@@ -2,11 +2,12 @@
 #include "geometry/run.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace farop {
 namespace {
 
-/// Corners that one thread alone takes at once, and that a batch has at least: long enough that a clock
+/// Corners that a batch of one thread alone has at least: long enough that a clock
 /// reading per batch costs nothing, short enough to stay in the L2 cache.
 constexpr std::size_t k_batch_corners = 4096;
 /// Corners of a unit for one of several threads: long enough to be worth passing to another processor.
@@ -59,61 +60,87 @@ void GeometryRun::surface(const SurfacePlacement& placement) {
   // Expected ones are taken off, so that nobody is warned of them.
   report_.degenerate_of_input[placement.input] -= surface.cone_tip_triangles;
   surfaces_.emplace_back(placement, world_to_eye_, setup_.camera.from);
+  batched::Piece rest{&surfaces_.back(), surface.polygons.begin(), surface.polygons.size()};
+  if (threads_ == 1) {
+    while (rest.polygons > 0) work_alone(rest);
+    surfaces_.clear();
+    return;
+  }
   const bool pure = !surface.shader || surface.shader->is_pure();
-  const std::size_t full = threads_ == 1 ? k_batch_corners : k_unit_corners;
-  PolygonList::Iterator at = surface.polygons.begin();
-  for (std::uint64_t left = surface.polygons.size(); left > 0;) {
+  while (rest.polygons > 0) {
     Unit& unit = units_[used_];
-    batched::Piece piece{&surfaces_.back(), at, 0};
-    for (; left > 0 && unit.corners < full; ++at, --left, ++piece.polygons)
-      unit.corners += (*at).corners.size();
+    batched::Piece piece{rest.placed, rest.first, 0};
+    for (; rest.polygons > 0 && unit.corners < k_unit_corners;
+         ++rest.first, --rest.polygons, ++piece.polygons)
+      unit.corners += (*rest.first).corners.size();
     unit.pieces.push_back(piece);
     unit.pure = unit.pure && pure;
-    if (unit.corners >= full && ++used_ == units_.size()) work(false);
+    if (unit.corners >= k_unit_corners && ++used_ == units_.size()) work_together();
   }
 }
 
 GeometryReport GeometryRun::finish() {
-  used_ = std::min(used_ + 1, units_.size());
-  work(true);
+  if (threads_ == 1) {
+    hand_over(units_[0].batch);
+    report_.counts = units_[0].counts;
+  } else {
+    used_ = std::min(used_ + 1, units_.size());
+    work_together();
+  }
   return std::move(report_);
 }
 
-void GeometryRun::work(bool last) {
-  const std::uint64_t ticks = report_.counts.loaded / k_progress_step;
-  const auto minds = [this](const Unit& unit) { return threads_ == 1 || !unit.pure; };
-  for (std::size_t i = 0; i < used_; ++i) {
-    if (minds(units_[i])) work_on(units_[i], 0);
+void GeometryRun::work_on(batched::Piece& piece, std::size_t enough, Unit& unit, std::size_t worker) {
+  if (!plain_) {
+    stages_[worker]->run(piece, enough, unit.batch, unit.counts);
+    return;
   }
-  if (threads_ > 1) {
-    workers_->run(used_, [&](std::size_t i, std::size_t worker) {
-      if (!minds(units_[i])) work_on(units_[i], worker);
-    });
-  }
+  for (; piece.polygons > 0 && unit.batch.vertices.size() < enough; ++piece.first, --piece.polygons)
+    plain_->polygon(*piece.placed, *piece.first, unit.batch, unit.counts);
+}
+
+void GeometryRun::work_alone(batched::Piece& piece) {
+  Unit& unit = units_[0];
+  const PolygonCounts before = unit.counts;
+  batched::Piece next = piece;
+  next.polygons = std::min(next.polygons, k_progress_step);
+  const std::uint64_t given = next.polygons;
+  work_on(next, k_batch_corners, unit, 0);
+  piece.first = next.first;
+  piece.polygons -= given - next.polygons;
+  report_.degenerate_of_input[piece.placed->input] += unit.counts.degenerate - before.degenerate;
+  if (unit.batch.vertices.size() >= k_batch_corners) hand_over(unit.batch);
+  show_progress(before.loaded, unit.counts.loaded);
+}
+
+void GeometryRun::work_together() {
+  constexpr std::size_t k_all = std::numeric_limits<std::size_t>::max();
+  const auto work = [&](Unit& unit, std::size_t worker) {
+    for (batched::Piece& piece : unit.pieces) {
+      const std::uint64_t before = unit.counts.degenerate;
+      work_on(piece, k_all, unit, worker);
+      unit.degenerate.push_back(unit.counts.degenerate - before);
+    }
+  };
   for (std::size_t i = 0; i < used_; ++i) {
-    Unit& unit = units_[i];
-    take_counts(unit);
-    // One thread alone collects until it is worth it.
-    if (last || threads_ > 1 || unit.batch.vertices.size() >= k_batch_corners) hand_over(unit.batch);
+    if (!units_[i].pure) work(units_[i], 0);
+  }
+  workers_->run(used_, [&](std::size_t i, std::size_t worker) {
+    if (units_[i].pure) work(units_[i], worker);
+  });
+  const std::uint64_t before = report_.counts.loaded;
+  for (std::size_t i = 0; i < used_; ++i) {
+    take_counts(units_[i]);
+    hand_over(units_[i].batch);
   }
   used_ = 0;
   // The last surface may have polygons that come in the next unit.
   while (surfaces_.size() > 1) surfaces_.pop_front();
-  if (progress_ && report_.counts.loaded / k_progress_step != ticks) progress_(report_.counts.loaded, total_);
+  show_progress(before, report_.counts.loaded);
 }
 
-void GeometryRun::work_on(Unit& unit, std::size_t worker) {
-  for (const batched::Piece& piece : unit.pieces) {
-    const std::uint64_t before = unit.counts.degenerate;
-    if (plain_) {
-      PolygonList::Iterator at = piece.first;
-      for (std::uint64_t i = 0; i < piece.polygons; ++i, ++at)
-        plain_->polygon(*piece.placed, *at, unit.batch, unit.counts);
-    } else {
-      stages_[worker]->run(piece, unit.batch, unit.counts);
-    }
-    unit.degenerate.push_back(unit.counts.degenerate - before);
-  }
+void GeometryRun::show_progress(std::uint64_t before, std::uint64_t now) const {
+  if (progress_ && before / k_progress_step != now / k_progress_step) progress_(now, total_);
 }
 
 void GeometryRun::take_counts(Unit& unit) {

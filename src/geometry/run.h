@@ -39,10 +39,12 @@ class GeometryRun {
     std::vector<std::uint64_t> degenerate;  ///< by piece
   };
 
-  void work(bool last);
-  void work_on(Unit& unit, std::size_t worker);
+  void work_alone(batched::Piece& piece);
+  void work_together();
+  void work_on(batched::Piece& piece, std::size_t enough, Unit& unit, std::size_t worker);
   void take_counts(Unit& unit);
   void hand_over(ScreenPolygonBatch& batch);
+  void show_progress(std::uint64_t before, std::uint64_t now) const;
 
   const GeometrySetup& setup_;
   ScreenPolygonSink& sink_;
@@ -56,8 +58,8 @@ class GeometryRun {
   std::vector<std::unique_ptr<batched::BatchedStage>> stages_;  ///< otherwise one for each thread
   std::optional<batched::Workers> workers_;                     ///< for more than one thread
   std::deque<PlacedSurface> surfaces_;                          ///< those of waiting pieces
-  std::vector<Unit> units_;
-  std::size_t used_ = 0;  ///< units that are full
+  std::vector<Unit> units_;                                     ///< one, never full, for one thread alone
+  std::size_t used_ = 0;                                        ///< units that are full
   GeometryReport report_;
 };
 

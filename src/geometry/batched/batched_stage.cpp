@@ -2,9 +2,6 @@
 #include "geometry/batched/batched_stage.h"
 
 #include <algorithm>
-#include <optional>
-
-#include "scene/plane.h"
 
 namespace farop::batched {
 namespace {
@@ -12,7 +9,7 @@ namespace {
 /// A chunk is full when its polygons have so many corners: its arrays then stay in the L2 cache.
 constexpr std::size_t k_full_corners = 1024;
 /// Polygons of more corners go to PlainStage.
-constexpr std::size_t k_long_polygon = 512;
+constexpr std::size_t k_long_polygon = PlaneGroup::k_longest;
 constexpr std::size_t k_max_corners = k_full_corners + k_long_polygon;
 constexpr std::size_t k_max_polygons = k_max_corners / 3;
 /// Every corner may need its vertex with the normal as it is and turned round.
@@ -54,17 +51,16 @@ struct BatchedStage::Arrays {
   V3f opacities[k_max_items];
   // By corner.
   std::uint32_t item[k_max_corners];
-  // By polygon, then by survivor.
-  Points<k_max_polygons + k_lanes> planes;
-  bool degenerate[k_max_polygons], faces_away[k_max_polygons];
-  // By survivor: flat shading's one corner.
+  // By polygon, by survivor.
+  Corners polygons[k_max_polygons];
+  Survivor survivors[k_max_polygons + 1];
+  Points<k_max_polygons + k_lanes> planes;  ///< unit normals, eye space
+  // Flat shading's one corner.
   Points<k_max_polygons + k_lanes> flat_positions, flat_normals;
   Colors<k_max_polygons + k_lanes> flat_colors;
   V3f flat_opacities[k_max_polygons];
 
   std::uint32_t slots[k_slots];
-  PolygonGroup group;
-  GroupPlanes group_planes;
 };
 
 BatchedStage::BatchedStage(const GeometrySetup& setup, const GeometryOptions& options,
@@ -81,134 +77,122 @@ BatchedStage::BatchedStage(const GeometrySetup& setup, const GeometryOptions& op
 
 BatchedStage::~BatchedStage() = default;
 
-void BatchedStage::run(const Piece& piece, ScreenPolygonBatch& batch, PolygonCounts& counts) {
+std::span<const BatchedStage::Survivor> BatchedStage::survivors() const {
+  return {a_->survivors, survivors_};
+}
+
+void BatchedStage::run(Piece& piece, std::size_t enough, ScreenPolygonBatch& batch, PolygonCounts& counts) {
   placed_ = piece.placed;
   const Surface& surface = placed_->surface;
   const bool one_by_one = placed_->flattened || !is_affine(placed_->local_to_eye) ||
                           (surface.shader && !surface.shader->is_pure());
-  PolygonList::Iterator at = piece.first;
-  for (std::uint64_t i = 0; i < piece.polygons; ++i, ++at) {
-    const PolygonView polygon = *at;
-    if (one_by_one || polygon.corners.size() > k_long_polygon) {
+  while (piece.polygons > 0 && batch.vertices.size() < enough) {
+    const PolygonView first = *piece.first;
+    if (one_by_one || first.corners.size() > k_long_polygon) {
+      plain_.polygon(*placed_, first, batch, counts);
+      ++piece.first, --piece.polygons;
+    } else {
+      take_chunk(piece);
       run_chunk(batch, counts);
-      plain_.polygon(*placed_, polygon, batch, counts);
-      continue;
     }
-    const Normals kind = polygon.has_given_normals          ? Normals::given
-                         : surface.averaged_normals.empty() ? Normals::of_plane
-                                                            : Normals::averaged;
-    if (kind != kind_ || corners_ >= k_full_corners) run_chunk(batch, counts);
-    kind_ = kind;
-    polygons_.push_back(polygon);
-    corners_ += polygon.corners.size();
   }
-  run_chunk(batch, counts);
+}
+
+/// Polygons that are not long and have their normals from where the first has them, until the chunk is full.
+void BatchedStage::take_chunk(Piece& piece) {
+  const Surface& surface = placed_->surface;
+  const bool given = (*piece.first).has_given_normals;
+  kind_ = given ? Normals::given : surface.averaged_normals.empty() ? Normals::of_plane : Normals::averaged;
+  planes_.clear();
+  PolygonList::Iterator at = piece.first;
+  const std::uint64_t most = std::min<std::uint64_t>(piece.polygons, k_max_polygons);
+  std::uint32_t polygons = 0;
+  for (std::size_t corners = 0; polygons < most && corners < k_full_corners; ++polygons, ++at) {
+    const PolygonView polygon = *at;
+    const std::size_t size = polygon.corners.size();
+    if (polygon.has_given_normals != given || size > k_long_polygon) break;
+    a_->polygons[polygons] = {polygon.corners.data(), static_cast<std::uint32_t>(size)};
+    planes_.add(surface.positions, polygon.corners);
+    corners += size;
+  }
+  polygons_ = polygons;
+  piece.first = at;
+  piece.polygons -= polygons;
 }
 
 void BatchedStage::run_chunk(ScreenPolygonBatch& batch, PolygonCounts& counts) {
-  if (polygons_.empty()) return;
-  find_planes();
+  planes_.find(placed_->eye_local);
   cull(counts);
-  if (!survivors_.empty()) {
-    collect_items();
-    transform_points(placed_->local_to_eye, frustum_, items_, a_->positions.arrays(), a_->codes);
-    drop_outside(counts);
-    find_normals();
-    project(mapping_.terms(), items_, a_->positions.arrays(), a_->x, a_->y, a_->z);
-    light_items();
-    append(batch, counts);
-  }
-  polygons_.clear();
-  corners_ = 0;
-}
-
-void BatchedStage::find_planes() {
-  const std::vector<V3d>& positions = placed_->surface.positions;
-  PolygonGroup& group = a_->group;
-  std::size_t members[k_lanes] = {};
-  std::size_t count = 0;
-  const auto flush = [&] {
-    if (count == 0) return;
-    for (std::size_t lane = count; lane < k_lanes; ++lane) group.count[lane] = 0;
-    batched::find_planes(group, placed_->eye_local, a_->group_planes);
-    const GroupPlanes& planes = a_->group_planes;
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      const std::size_t p = members[lane];
-      a_->planes.set(p, V3d(planes.x[lane], planes.y[lane], planes.z[lane]));
-      a_->degenerate[p] = (planes.degenerate >> lane & 1) != 0;
-      a_->faces_away[p] = (planes.faces_away >> lane & 1) != 0;
-    }
-    count = 0, group.most = 0;
-  };
-  group.most = 0;
-  for (std::size_t p = 0; p < polygons_.size(); ++p) {
-    const std::span<const std::uint32_t> corners = polygons_[p].corners;
-    if (corners.size() > PolygonGroup::k_corners) {
-      const std::optional<V3d> normal = plane_normal(positions, corners);
-      a_->degenerate[p] = !normal;
-      if (!normal) continue;
-      a_->planes.set(p, *normal);
-      a_->faces_away[p] = normal->dot(positions[corners.front()] - placed_->eye_local) >= 0;
-      continue;
-    }
-    for (std::size_t c = 0; c < corners.size(); ++c) {
-      const V3d& position = positions[corners[c]];
-      group.x[c][count] = position.x, group.y[c][count] = position.y, group.z[c][count] = position.z;
-    }
-    const V3d& last = positions[corners.back()];
-    group.last_x[count] = last.x, group.last_y[count] = last.y, group.last_z[count] = last.z;
-    group.count[count] = static_cast<double>(corners.size());
-    group.most = std::max(group.most, corners.size());
-    members[count] = p;
-    if (++count == k_lanes) flush();
-  }
-  flush();
+  if (survivors_ == 0) return;
+  collect_items();
+  // So that nothing that was there before lies outside.
+  for (std::size_t i = items_; i % k_lanes != 0; ++i) a_->positions.set(i, a_->positions.at(0));
+  const std::uint32_t codes =
+      transform_points(placed_->local_to_eye, frustum_, items_, a_->positions.arrays(), a_->codes);
+  if (codes != 0) drop_outside(counts);
+  find_normals();
+  project(mapping_.terms(), items_, a_->positions.arrays(), a_->x, a_->y, a_->z);
+  light_items();
+  append(batch, counts);
 }
 
 void BatchedStage::cull(PolygonCounts& counts) {
-  survivors_.clear();
-  counts.loaded += polygons_.size();
-  std::uint32_t corner = 0;
-  for (std::size_t p = 0; p < polygons_.size(); ++p) {
-    if (a_->degenerate[p]) {
+  counts.loaded += polygons_;
+  std::uint32_t corner = 0, kept = 0;
+  for (std::size_t p = 0; p < polygons_; ++p) {
+    const PolygonPlanes::Side side = planes_.side(p);
+    if (side.degenerate) {
       ++counts.degenerate;
       continue;
     }
-    const bool faces_away = a_->faces_away[p];
-    if (faces_away && !options_.two_sided) {
+    if (side.faces_away && !options_.two_sided) {
       ++counts.back_facing;
       continue;
     }
-    const auto plane = static_cast<std::uint32_t>(survivors_.size());
-    a_->planes.set(plane, a_->planes.at(p));
-    survivors_.push_back({polygons_[p], corner, plane, faces_away, false});
-    corner += static_cast<std::uint32_t>(polygons_[p].corners.size());
+    a_->survivors[kept] = {a_->polygons[p], corner, kept, side.faces_away, false};
+    a_->planes.set(kept, planes_.normal(p));
+    corner += a_->polygons[p].count;
+    ++kept;
   }
-  transform_directions(placed_->normal_to_eye, survivors_.size(), a_->planes.arrays());
+  survivors_ = kept;
+  transform_directions(placed_->normal_to_eye, kept, a_->planes.arrays());
 }
 
 void BatchedStage::collect_items() {
-  const std::vector<V3d>& positions = placed_->surface.positions;
-  const bool shared = kind_ != Normals::of_plane;
-  std::uint32_t items = 0, corner = 0;
-  for (const Survivor& survivor : survivors_) {
-    const std::span<const std::uint32_t> corners = survivor.polygon.corners;
-    const std::size_t size = corners.size();
-    for (std::size_t i = 0; i < size; ++i, ++corner) {
-      // The first stays the first; of a mirrored polygon the others come the other way round.
-      const std::uint32_t v = corners[placed_->mirrored && i > 0 ? size - i : i];
-      if (shared) {
-        std::uint32_t& slot = a_->slots[v % k_slots];
-        if (slot < items && a_->vertex[slot] == v) {
-          a_->item[corner] = slot;
-          continue;
-        }
-        slot = items;
+  const V3d* positions = placed_->surface.positions.data();
+  const bool mirrored = placed_->mirrored;
+  const auto vertex_of = [mirrored](const Corners& corners, std::size_t i) {
+    // The first stays the first; of a mirrored polygon the others come the other way round.
+    return corners.vertices[mirrored && i > 0 ? corners.count - i : i];
+  };
+  std::uint32_t items = 0;
+  if (kind_ == Normals::of_plane) {
+    for (const Survivor& survivor : survivors()) {
+      const V3d plane = a_->planes.at(survivor.plane);
+      const V3d normal = survivor.faces_away ? -plane : plane;
+      for (std::size_t i = 0; i < survivor.corners.count; ++i, ++items) {
+        const std::uint32_t v = vertex_of(survivor.corners, i);
+        a_->item[items] = items;
+        a_->vertex[items] = v;
+        a_->positions.set(items, positions[v]);
+        a_->normals.set(items, normal);
       }
-      a_->item[corner] = items;
-      a_->vertex[items] = v;
-      a_->positions.set(items, positions[v]);
-      ++items;
+    }
+    items_ = items;
+    return;
+  }
+  std::uint32_t corner = 0;
+  for (const Survivor& survivor : survivors()) {
+    for (std::size_t i = 0; i < survivor.corners.count; ++i, ++corner) {
+      const std::uint32_t v = vertex_of(survivor.corners, i);
+      std::uint32_t& slot = a_->slots[v % k_slots];
+      if (slot >= items || a_->vertex[slot] != v) {
+        slot = items;
+        a_->vertex[items] = v;
+        a_->positions.set(items, positions[v]);
+        ++items;
+      }
+      a_->item[corner] = slot;
     }
   }
   items_ = items;
@@ -217,31 +201,28 @@ void BatchedStage::collect_items() {
 // Polygons outside one plane are dropped, those that a plane cuts are left alone; items of neither are not
 // worked on any further.
 void BatchedStage::drop_outside(PolygonCounts& counts) {
-  bool all_inside = true;
-  auto kept = survivors_.begin();
-  for (Survivor& survivor : survivors_) {
+  std::uint32_t kept = 0;
+  for (const Survivor& survivor : survivors()) {
     std::uint32_t any = 0, all = ~0u;
     const std::uint32_t* item = a_->item + survivor.first_corner;
-    for (std::size_t i = 0; i < survivor.polygon.corners.size(); ++i) {
+    for (std::size_t i = 0; i < survivor.corners.count; ++i) {
       const std::uint32_t code = a_->codes[item[i]];
       any |= code, all &= code;
     }
-    if (any != 0) all_inside = false;
     if (all != 0) {
       ++counts.totally_clipped;
       continue;
     }
-    survivor.cut = any != 0;
-    *kept++ = survivor;
+    a_->survivors[kept] = survivor;
+    a_->survivors[kept++].cut = any != 0;
   }
-  survivors_.erase(kept, survivors_.end());
-  if (all_inside) return;
+  survivors_ = kept;
 
   const auto for_each_corner_inside = [&](const auto& visit) {
-    for (const Survivor& survivor : survivors_) {
+    for (const Survivor& survivor : survivors()) {
       if (survivor.cut) continue;
       std::uint32_t* item = a_->item + survivor.first_corner;
-      for (std::size_t i = 0; i < survivor.polygon.corners.size(); ++i) visit(item[i]);
+      for (std::size_t i = 0; i < survivor.corners.count; ++i) visit(item[i]);
     }
   };
   std::fill_n(a_->other, items_, k_none);
@@ -250,6 +231,7 @@ void BatchedStage::drop_outside(PolygonCounts& counts) {
   for (std::size_t i = 0; i < items_; ++i) {
     if (a_->other[i] == k_none) continue;
     a_->positions.set(items, a_->positions.at(i));
+    a_->normals.set(items, a_->normals.at(i));
     a_->vertex[items] = a_->vertex[i];
     a_->other[i] = items++;
   }
@@ -258,32 +240,21 @@ void BatchedStage::drop_outside(PolygonCounts& counts) {
 }
 
 void BatchedStage::find_normals() {
-  if (kind_ == Normals::of_plane) {
-    for (const Survivor& survivor : survivors_) {
-      if (survivor.cut) continue;
-      const V3d plane = a_->planes.at(survivor.plane);
-      const V3d normal = survivor.faces_away ? -plane : plane;
-      for (std::size_t i = 0; i < survivor.polygon.corners.size(); ++i)
-        a_->normals.set(a_->item[survivor.first_corner + i], normal);
-    }
-    return;
-  }
+  if (kind_ == Normals::of_plane) return;  // they came with the items
   const std::vector<V3d>& own = *placed_->vertex_normals(kind_ == Normals::given);
   for (std::size_t i = 0; i < items_; ++i) a_->normals.set(i, own[a_->vertex[i]]);
   const bool any_zero = transform_directions(placed_->vertex_normal_to_eye, items_, a_->normals.arrays());
-  const bool may_turn =
-      options_.two_sided || (kind_ == Normals::given && placed_->surface.normal_rule == NormalRule::nff);
-  if (any_zero || may_turn) turn_normals();
+  const bool towards_front = kind_ == Normals::given && placed_->surface.normal_rule == NormalRule::nff;
+  if (any_zero || options_.two_sided || towards_front) turn_normals(towards_front);
 }
 
 // Corners whose normal is not that of their vertex get an item of their own, or the twin of their vertex's.
-void BatchedStage::turn_normals() {
-  const bool towards_front = kind_ == Normals::given && placed_->surface.normal_rule == NormalRule::nff;
+void BatchedStage::turn_normals(bool towards_front) {
   std::fill_n(a_->other, items_, k_none);
-  for (const Survivor& survivor : survivors_) {
+  for (const Survivor& survivor : survivors()) {
     if (survivor.cut) continue;
     const V3d plane = a_->planes.at(survivor.plane);
-    for (std::size_t i = 0; i < survivor.polygon.corners.size(); ++i) {
+    for (std::size_t i = 0; i < survivor.corners.count; ++i) {
       std::uint32_t& item = a_->item[survivor.first_corner + i];
       const V3d normal = a_->normals.at(item);
       if (normal == V3d(0, 0, 0)) {
@@ -315,11 +286,11 @@ void BatchedStage::light_items() {
   if (options_.flat) {
     lit = {a_->flat_positions.arrays(), a_->flat_normals.arrays(), a_->flat_colors.red_green,
            a_->flat_colors.blue};
-    count = survivors_.size();
+    count = survivors_;
     opacities = a_->flat_opacities;
     for (std::size_t s = 0; s < count; ++s) {
-      if (survivors_[s].cut) continue;
-      const std::uint32_t item = a_->item[survivors_[s].first_corner];
+      if (a_->survivors[s].cut) continue;
+      const std::uint32_t item = a_->item[a_->survivors[s].first_corner];
       a_->flat_positions.set(s, a_->positions.at(item));
       a_->flat_normals.set(s, a_->normals.at(item));
     }
@@ -338,7 +309,7 @@ void BatchedStage::light_items() {
   } else {
     const auto texture = [&](std::size_t i) {
       if (surface.textures.empty()) return V3d(0, 0, 0);
-      return V3d(surface.textures[a_->vertex[options_.flat ? a_->item[survivors_[i].first_corner] : i]]);
+      return V3d(surface.textures[a_->vertex[options_.flat ? a_->item[a_->survivors[i].first_corner] : i]]);
     };
     lighting_.by_shader(*surface.shader, count, lit, texture,
                         [&](std::size_t i, const Rgb& o) { opacities[i] = as_float(o); });
@@ -346,62 +317,75 @@ void BatchedStage::light_items() {
 }
 
 void BatchedStage::append(ScreenPolygonBatch& batch, PolygonCounts& counts) {
-  const auto is_cut = [](const Survivor& survivor) { return survivor.cut; };
-  for (auto at = survivors_.cbegin(); at != survivors_.cend();) {
-    const auto cut = std::find_if(at, survivors_.cend(), is_cut);
-    append_inside({at, cut}, batch, counts);
-    at = cut;
-    for (; at != survivors_.cend() && at->cut; ++at) {
+  const std::span<const Survivor> all = survivors();
+  for (std::size_t first = 0; first < all.size();) {
+    std::size_t end = first;
+    while (end < all.size() && !all[end].cut) ++end;
+    append_inside(first, end, batch, counts);
+    for (first = end; first < all.size() && all[first].cut; ++first) {
       --counts.loaded;  // PlainStage counts it again
-      plain_.polygon(*placed_, at->polygon, batch, counts);
+      const Corners& corners = all[first].corners;
+      plain_.polygon(*placed_, {{corners.vertices, corners.count}, kind_ == Normals::given}, batch, counts);
     }
   }
 }
 
-void BatchedStage::append_inside(std::span<const Survivor> run, ScreenPolygonBatch& batch,
+void BatchedStage::append_inside(std::size_t first, std::size_t end, ScreenPolygonBatch& batch,
                                  PolygonCounts& counts) {
-  counts.rendered += run.size();
+  std::size_t total = 0;
+  for (std::size_t s = first; s < end; ++s) total += a_->survivors[s].corners.count;
+  counts.rendered += end - first;
+  counts.vertices += total;
   const bool attributes =
       wants_.opacities || wants_.textures || wants_.normals || wants_.eye_positions || wants_.vertex_ids;
-  std::size_t total = 0;
-  for (const Survivor& survivor : run) total += survivor.polygon.corners.size();
-  counts.vertices += total;
-  std::size_t first = batch.vertices.size();
-  if (!triangles_only_) batch.vertices.resize(first + total);
-  for (const Survivor& survivor : run) {
-    const std::size_t size = survivor.polygon.corners.size();
-    if (triangles_only_) batch.vertices.resize(first + size);
-    const std::uint32_t* items = a_->item + survivor.first_corner;
-    const std::size_t s = static_cast<std::size_t>(&survivor - survivors_.data());
-    ScreenVertex* out = batch.vertices.data() + first;
-    for (std::size_t i = 0; i < size; ++i, ++out) {
-      const std::uint32_t item = items[i];
-      const std::uint32_t red_green =
-          options_.flat ? a_->flat_colors.red_green[s] : a_->colors.red_green[item];
-      const std::uint32_t blue = options_.flat ? a_->flat_colors.blue[s] : a_->colors.blue[item];
-      out->x = a_->x[item], out->y = a_->y[item], out->z = a_->z[item];
-      out->r = static_cast<std::uint16_t>(red_green);
-      out->g = static_cast<std::uint16_t>(red_green >> 16);
-      out->b = static_cast<std::uint16_t>(blue);
-    }
-    if (attributes) append_attributes(survivor, batch);
-    if (triangles_only_) {
+  if (triangles_only_) {
+    for (std::size_t s = first; s < end; ++s) {
+      const Survivor& survivor = a_->survivors[s];
+      const std::size_t start = batch.vertices.size();
+      batch.vertices.resize(start + survivor.corners.count);
+      write_vertices(s, batch.vertices.data() + start);
+      if (attributes) append_attributes(s, batch);
       positions_.clear();
-      for (std::size_t i = 0; i < size; ++i) positions_.push_back(a_->positions.at(items[i]));
+      for (std::size_t i = 0; i < survivor.corners.count; ++i)
+        positions_.push_back(a_->positions.at(a_->item[survivor.first_corner + i]));
       plain_.append_triangles(positions_, a_->planes.at(survivor.plane), *placed_, survivor.faces_away, batch,
                               counts);
-      first = batch.vertices.size();
-    } else {
-      PlainStage::append_record(first, size, *placed_, survivor.faces_away, batch);
-      first += size;
     }
+    return;
+  }
+  std::size_t start = batch.vertices.size();
+  batch.vertices.resize(start + total);
+  for (std::size_t s = first; s < end; ++s) {
+    const Survivor& survivor = a_->survivors[s];
+    write_vertices(s, batch.vertices.data() + start);
+    if (attributes) append_attributes(s, batch);
+    PlainStage::append_record(start, survivor.corners.count, *placed_, survivor.faces_away, batch);
+    start += survivor.corners.count;
   }
 }
 
-void BatchedStage::append_attributes(const Survivor& survivor, ScreenPolygonBatch& batch) const {
+inline void BatchedStage::write_vertices(std::size_t s, ScreenVertex* out) const {
+  const Survivor survivor = a_->survivors[s];
+  const Arrays& a = *a_;
+  const bool flat = options_.flat;
+  const std::uint32_t* red_green = flat ? a.flat_colors.red_green : a.colors.red_green;
+  const std::uint32_t* blue = flat ? a.flat_colors.blue : a.colors.blue;
+  for (std::size_t i = 0; i < survivor.corners.count; ++i) {
+    const std::uint32_t item = a.item[survivor.first_corner + i];
+    const std::size_t lit = flat ? s : item;
+    ScreenVertex v;
+    v.x = a.x[item], v.y = a.y[item], v.z = a.z[item];
+    v.r = static_cast<std::uint16_t>(red_green[lit]);
+    v.g = static_cast<std::uint16_t>(red_green[lit] >> 16);
+    v.b = static_cast<std::uint16_t>(blue[lit]);
+    out[i] = v;
+  }
+}
+
+void BatchedStage::append_attributes(std::size_t s, ScreenPolygonBatch& batch) const {
   const std::vector<V3f>& textures = placed_->surface.textures;
-  const std::size_t s = static_cast<std::size_t>(&survivor - survivors_.data());
-  for (std::size_t i = 0; i < survivor.polygon.corners.size(); ++i) {
+  const Survivor& survivor = a_->survivors[s];
+  for (std::size_t i = 0; i < survivor.corners.count; ++i) {
     const std::uint32_t item = a_->item[survivor.first_corner + i];
     if (wants_.opacities)
       batch.opacities.push_back(options_.flat ? a_->flat_opacities[s] : a_->opacities[item]);

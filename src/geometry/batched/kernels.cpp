@@ -107,74 +107,113 @@ HWY_INLINE std::uint32_t bits_of(MaskVector mask) {
 
 // ------------------------------------------------------------------------------------------------ planes
 
-/// plane_normal() for the polygons of k_step lanes. `all_alike`: every lane has `most` corners.
-template <bool all_alike>
-HWY_INLINE void planes_of_lanes(const PolygonGroup& g, std::size_t lane, const Three& eye, GroupPlanes& out) {
+constexpr double k_infinity = std::numeric_limits<double>::infinity();
+/// Of the length of Newell's sum.
+constexpr double k_least_area = 1e-12;
+
+/// plane_normal() for the polygons of k_step lanes.
+HWY_INLINE void planes_of_lanes(const Row* rows, std::size_t lane, const Three& eye, PlaneGroup& group) {
   const auto corner = [&](std::size_t c) {
-    return Three{hn::Load(df, g.x[c] + lane), hn::Load(df, g.y[c] + lane), hn::Load(df, g.z[c] + lane)};
+    return Three{hn::Load(df, rows[3 * c].values + lane), hn::Load(df, rows[3 * c + 1].values + lane),
+                 hn::Load(df, rows[3 * c + 2].values + lane)};
   };
-  const Vector count = hn::Load(df, g.count + lane);
-  const auto present = [&](std::size_t c) { return hn::Lt(set(static_cast<double>(c)), count); };
+  const std::size_t corners = group.corners;
   const Three origin = corner(0);
   Vector extent = hn::Zero(df);
-  for (std::size_t c = 1; c < g.most; ++c) {
+  for (std::size_t c = 1; c < corners; ++c) {
     const Three d = corner(c) - origin;
-    const Vector e = larger(larger(larger(extent, hn::Abs(d.x)), hn::Abs(d.y)), hn::Abs(d.z));
-    extent = all_alike ? e : hn::IfThenElse(present(c), e, extent);
+    extent = larger(larger(larger(extent, hn::Abs(d.x)), hn::Abs(d.y)), hn::Abs(d.z));
   }
-  const MaskVector measurable =
-      hn::And(hn::Gt(extent, hn::Zero(df)), hn::Lt(extent, set(std::numeric_limits<double>::infinity())));
+  const MaskVector measurable = hn::And(hn::Gt(extent, hn::Zero(df)), hn::Lt(extent, set(k_infinity)));
 
-  const auto scaled = [&](const Three& p) {
-    const Three d = p - origin;
+  const auto scaled = [&](std::size_t c) {
+    const Three d = corner(c) - origin;
     return Three{hn::Div(d.x, extent), hn::Div(d.y, extent), hn::Div(d.z, extent)};
   };
-  const Three last{hn::Load(df, g.last_x + lane), hn::Load(df, g.last_y + lane),
-                   hn::Load(df, g.last_z + lane)};
   Three sum{hn::Zero(df), hn::Zero(df), hn::Zero(df)};
-  Three previous = scaled(last);
-  const Three closing = previous;
-  for (std::size_t c = 0; c < g.most; ++c) {
+  const Three last = scaled(corners - 1);
+  Three previous = last;
+  for (std::size_t c = 0; c < corners; ++c) {
     Three current{hn::Zero(df), hn::Zero(df), hn::Zero(df)};  // the first corner is the origin
-    if (c > 0) current = all_alike && c + 1 == g.most ? closing : scaled(corner(c));
-    const Vector x = hn::Add(sum.x, hn::Mul(hn::Sub(previous.y, current.y), hn::Add(previous.z, current.z)));
-    const Vector y = hn::Add(sum.y, hn::Mul(hn::Sub(previous.z, current.z), hn::Add(previous.x, current.x)));
-    const Vector z = hn::Add(sum.z, hn::Mul(hn::Sub(previous.x, current.x), hn::Add(previous.y, current.y)));
-    if constexpr (all_alike) {
-      sum = {x, y, z};
-    } else {
-      const MaskVector here = present(c);
-      sum = {hn::IfThenElse(here, x, sum.x), hn::IfThenElse(here, y, sum.y), hn::IfThenElse(here, z, sum.z)};
-    }
+    if (c > 0) current = c + 1 == corners ? last : scaled(c);
+    sum.x = hn::Add(sum.x, hn::Mul(hn::Sub(previous.y, current.y), hn::Add(previous.z, current.z)));
+    sum.y = hn::Add(sum.y, hn::Mul(hn::Sub(previous.z, current.z), hn::Add(previous.x, current.x)));
+    sum.z = hn::Add(sum.z, hn::Mul(hn::Sub(previous.x, current.x), hn::Add(previous.y, current.y)));
     previous = current;
   }
-  const Vector length = hn::Sqrt(dot(sum, sum));  // a square that has lost digits is below 1e-12 in any case
-  const MaskVector fine = hn::And(measurable, hn::Gt(length, set(1e-12)));
+  const Vector length = hn::Sqrt(dot(sum, sum));  // a square that has lost digits is too small in any case
+  const MaskVector fine = hn::And(measurable, hn::Gt(length, set(k_least_area)));
   const Three normal{hn::Div(sum.x, length), hn::Div(sum.y, length), hn::Div(sum.z, length)};
   const MaskVector away = hn::Ge(dot(normal, origin - eye), hn::Zero(df));
-  store(normal, {out.x, out.y, out.z}, lane);
-  out.degenerate |= (bits_of(fine) ^ ((1u << k_step) - 1)) << lane;
-  out.faces_away |= bits_of(away) << lane;
+  store(normal, {group.x, group.y, group.z}, lane);
+  group.degenerate |= (bits_of(fine) ^ ((1u << k_step) - 1)) << lane;
+  group.faces_away |= bits_of(away) << lane;
 }
 
-void find_planes_here(const PolygonGroup& group, const V3d& eye, GroupPlanes& planes) {
-  planes.degenerate = planes.faces_away = 0;
-  bool all_alike = true;
-  for (const double count : group.count) all_alike = all_alike && count == static_cast<double>(group.most);
+/// plane_normal() of one long polygon: everything by vectors but the sum, whose order is fixed.
+HWY_INLINE void plane_of_long(const Row* rows, const V3d& eye, PlaneGroup& group) {
+  constexpr std::size_t room = PlaneGroup::k_longest + 2 * k_lanes;
+  const std::size_t n = group.corners, padded = PlaneGroup::rows_of_long(n) * k_lanes;
+  const PointArrays corners{const_cast<double*>(rows->values), const_cast<double*>(rows->values) + padded,
+                            const_cast<double*>(rows->values) + 2 * padded};
+  const V3d first(corners.x[0], corners.y[0], corners.z[0]);
+  const Three origin = all(first);
+  Vector extents = hn::Zero(df);
+  for (std::size_t i = 0; i < n; i += k_step) {
+    const Three d = load(corners, i) - origin;
+    extents = larger(larger(larger(extents, hn::Abs(d.x)), hn::Abs(d.y)), hn::Abs(d.z));
+  }
+  alignas(k_alignment) double lanes[k_step];
+  hn::Store(extents, df, lanes);
+  double extent = 0;
+  for (const double e : lanes) extent = extent < e ? e : extent;
+  group.degenerate = 1;
+  if (!(extent > 0) || !(extent < k_infinity)) return;
+
+  // Scaled corners begin at 1; the last one comes before the first.
+  alignas(k_alignment) double x[room], y[room], z[room];
+  const Vector size = set(extent);
+  for (std::size_t i = 0; i < n; i += k_step) {
+    const Three d = load(corners, i) - origin;
+    hn::StoreU(hn::Div(d.x, size), df, x + 1 + i);
+    hn::StoreU(hn::Div(d.y, size), df, y + 1 + i);
+    hn::StoreU(hn::Div(d.z, size), df, z + 1 + i);
+  }
+  x[0] = x[n], y[0] = y[n], z[0] = z[n];
+  for (std::size_t i = 0; i < n; i += k_step) {
+    const Three previous{hn::Load(df, x + i), hn::Load(df, y + i), hn::Load(df, z + i)};
+    const Three current{hn::LoadU(df, x + 1 + i), hn::LoadU(df, y + 1 + i), hn::LoadU(df, z + 1 + i)};
+    hn::Store(hn::Mul(hn::Sub(previous.y, current.y), hn::Add(previous.z, current.z)), df, x + i);
+    hn::Store(hn::Mul(hn::Sub(previous.z, current.z), hn::Add(previous.x, current.x)), df, y + i);
+    hn::Store(hn::Mul(hn::Sub(previous.x, current.x), hn::Add(previous.y, current.y)), df, z + i);
+  }
+  V3d sum(0, 0, 0);
+  for (std::size_t i = 0; i < n; ++i) sum.x += x[i], sum.y += y[i], sum.z += z[i];
+  const double length = sum.length();
+  if (!(length > k_least_area)) return;
+  const V3d normal = sum / length;
+  group.x[0] = normal.x, group.y[0] = normal.y, group.z[0] = normal.z;
+  group.degenerate = 0;
+  group.faces_away = normal.dot(first - eye) >= 0 ? 1 : 0;
+}
+
+void find_planes_here(std::span<PlaneGroup> groups, const Row* rows, const V3d& eye) {
   const Three eyes = all(eye);
-  for (std::size_t lane = 0; lane < k_lanes; lane += k_step) {
-    if (all_alike) {
-      planes_of_lanes<true>(group, lane, eyes, planes);
-    } else {
-      planes_of_lanes<false>(group, lane, eyes, planes);
+  for (PlaneGroup& group : groups) {
+    group.degenerate = group.faces_away = 0;
+    if (group.is_long) {
+      plane_of_long(rows + group.first_row, eye, group);
+      continue;
     }
+    for (std::size_t lane = 0; lane < k_lanes; lane += k_step)
+      planes_of_lanes(rows + group.first_row, lane, eyes, group);
   }
 }
 
 // ----------------------------------------------------------------------------------------------- vertices
 
-void transform_points_here(const M44d& m, const Frustum& frustum, std::size_t n, PointArrays points,
-                           std::uint32_t* codes) {
+std::uint32_t transform_points_here(const M44d& m, const Frustum& frustum, std::size_t n, PointArrays points,
+                                    std::uint32_t* codes) {
   const Three row0{set(m[0][0]), set(m[0][1]), set(m[0][2])};
   const Three row1{set(m[1][0]), set(m[1][1]), set(m[1][2])};
   const Three row2{set(m[2][0]), set(m[2][1]), set(m[2][2])};
@@ -186,6 +225,7 @@ void transform_points_here(const M44d& m, const Frustum& frustum, std::size_t n,
   const auto outside = [&](MaskVector inside, unsigned plane) {
     return hn::IfThenZeroElse(inside, bit(plane));
   };
+  Vector any = hn::Zero(df);
   for (std::size_t i = 0; i < n; i += k_step) {
     const Three p = load(points, i);
     const Three q{hn::Add(combine(p, row0.x, row1.x, row2.x), row3.x),
@@ -198,8 +238,14 @@ void transform_points_here(const M44d& m, const Frustum& frustum, std::size_t n,
     code = hn::Or(code, outside(hn::Le(q.x, limit_x), 3));
     code = hn::Or(code, outside(hn::Ge(q.y, hn::Neg(limit_y)), 4));
     code = hn::Or(code, outside(hn::Le(q.y, limit_y), 5));
+    any = hn::Or(any, code);
     hn::Store(hn::TruncateTo(dw, hn::BitCast(dul, code)), dw, codes + i);
   }
+  alignas(k_alignment) std::uint64_t lanes[k_step];
+  hn::Store(hn::BitCast(dul, any), dul, lanes);
+  std::uint64_t bits = 0;
+  for (const std::uint64_t lane : lanes) bits |= lane;
+  return static_cast<std::uint32_t>(bits);
 }
 
 bool transform_directions_here(const M44d& m, std::size_t n, PointArrays directions) {
@@ -403,13 +449,13 @@ HWY_EXPORT(project_here);
 HWY_EXPORT(light_here);
 HWY_EXPORT(depth_range_here);
 
-void find_planes(const PolygonGroup& group, const V3d& eye, GroupPlanes& planes) {
-  HWY_DYNAMIC_DISPATCH(find_planes_here)(group, eye, planes);
+void find_planes(std::span<PlaneGroup> groups, const Row* rows, const V3d& eye) {
+  HWY_DYNAMIC_DISPATCH(find_planes_here)(groups, rows, eye);
 }
 
-void transform_points(const M44d& m, const Frustum& frustum, std::size_t n, PointArrays points,
-                      std::uint32_t* codes) {
-  HWY_DYNAMIC_DISPATCH(transform_points_here)(m, frustum, n, points, codes);
+std::uint32_t transform_points(const M44d& m, const Frustum& frustum, std::size_t n, PointArrays points,
+                               std::uint32_t* codes) {
+  return HWY_DYNAMIC_DISPATCH(transform_points_here)(m, frustum, n, points, codes);
 }
 
 bool transform_directions(const M44d& m, std::size_t n, PointArrays directions) {

@@ -28,31 +28,33 @@ struct PointArrays {
 
 // ------------------------------------------------------------------------------------------------ planes
 
-/// Corners of up to k_lanes polygons of 3 to k_corners corners, lane by lane. Lanes without a polygon hold
-/// any finite numbers and a count of 0.
-struct alignas(k_alignment) PolygonGroup {
-  static constexpr std::size_t k_corners = 12;
-
-  double x[k_corners][k_lanes], y[k_corners][k_lanes], z[k_corners][k_lanes];
-  double last_x[k_lanes], last_y[k_lanes], last_z[k_lanes];  ///< the last corner once more
-  double count[k_lanes];
-  std::size_t most = 0;  ///< the largest count
+struct alignas(k_alignment) Row {
+  double values[k_lanes];
 };
 
-/// What plane_normal() (scene/plane.h) and the facing test say, by polygon.
-struct alignas(k_alignment) GroupPlanes {
+/// k_lanes polygons of equally many corners, lane by lane, three rows a corner: x, y, z. Or (is_long) a
+/// single one, in lane 0: rows_of_long() rows of x, as many of y and of z, what is left of them filled with
+/// the first corner. Lanes without a polygon hold any numbers.
+struct alignas(k_alignment) PlaneGroup {
+  static constexpr std::size_t rows_of_long(std::size_t corners) { return (corners + k_lanes - 1) / k_lanes; }
+  static constexpr std::size_t k_longest = 512;  ///< corners
+
   double x[k_lanes], y[k_lanes], z[k_lanes];  ///< unit normals, meaningless where degenerate
-  std::uint32_t degenerate;                   ///< bit i: polygon i
-  std::uint32_t faces_away;                   ///< n . (first corner - eye) >= 0
+  std::uint32_t first_row = 0;
+  std::uint32_t corners = 0;
+  bool is_long = false;
+  std::uint32_t degenerate = 0;  ///< bit i: polygon i; like the normals what plane_normal() says
+  std::uint32_t faces_away = 0;  ///< n . (first corner - eye) >= 0
 };
-void find_planes(const PolygonGroup& group, const V3d& eye, GroupPlanes& planes);
+void find_planes(std::span<PlaneGroup> groups, const Row* rows, const V3d& eye);
 
 // ----------------------------------------------------------------------------------------------- vertices
 
 /// points <- points * m for an m whose last column is 0 0 0 1. codes: bit k set where a point lies outside
-/// plane k of clip_to_frustum(), in its order.
-void transform_points(const M44d& m, const Frustum& frustum, std::size_t n, PointArrays points,
-                      std::uint32_t* codes);
+/// plane k of clip_to_frustum(), in its order. Returns the bits set for any of them, those that
+/// fill up the last lanes included.
+std::uint32_t transform_points(const M44d& m, const Frustum& frustum, std::size_t n, PointArrays points,
+                               std::uint32_t* codes);
 
 /// directions <- unit vectors of directions times the directional part of m. Returns whether there is a zero
 /// vector among the first n results.
