@@ -71,7 +71,7 @@ std::string perf_svg(const conformance::PerfResult& perf, const std::string& tit
   }
   const LogScale x(left, right, k_width), y(low, high, k_height);
   std::string svg =
-      fmt::format("<svg class=\"curve\" role=\"img\" aria-label=\"{}\" viewBox=\"-16 -4 122 74\">", title);
+      fmt::format("<svg class=\"curve\" role=\"img\" aria-label=\"{}\" viewBox=\"-22 -4 128 74\">", title);
   svg += fmt::format("<path class=\"frame\" d=\"M0 0h{0}v{1}h-{0}z\"/>", k_width, k_height);
   svg += curve(reference, x, y, "reference") + curve(mine, x, y, "mine");
   for (const double size : {left, right})

@@ -13,6 +13,11 @@ namespace {
 
 __extension__ using Wide = __int128;
 
+/// As a factor or a term of a product: "(−3)" where it is negative.
+std::string signed_text(std::int64_t n) {
+  return n < 0 ? fmt::format("(\u2212{})", -n) : fmt::format("{}", n);
+}
+
 }  // namespace
 
 std::vector<Crossing> crossings(std::span<const ScreenVertex> polygon, int y) {
@@ -42,8 +47,9 @@ EdgeSum edge_sum(const Crossing& edge, int x, int y) {
   const ScreenVertex &a = edge.from, &b = edge.to;
   const std::int64_t dy = std::int64_t{b.y} - a.y, dx = std::int64_t{b.x} - a.x;
   const std::int64_t value = (std::int64_t{x} - a.x) * dy - (std::int64_t{y} - a.y) * dx;
-  return {value, fmt::format("({} \u2212 {})\u00B7{} \u2212 ({} \u2212 {})\u00B7{} = {}", x, a.x, dy, y, a.y,
-                             dx, value)};
+  return {value,
+          fmt::format("({} \u2212 {})\u00B7{} \u2212 ({} \u2212 {})\u00B7{} = {}{}", x, signed_text(a.x), dy,
+                      y, signed_text(a.y), signed_text(dx), value < 0 ? "\u2212" : "", std::abs(value))};
 }
 
 std::string fraction(std::int64_t numerator, std::int64_t denominator) {

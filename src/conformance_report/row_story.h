@@ -25,7 +25,7 @@ int crossings_up_to(std::span<const Crossing> row, int x);
 /// What the side of an edge is decided by, with the numbers put in; counted where value >= 0.
 struct EdgeSum {
   std::int64_t value = 0;  ///< (x - x1)(y2 - y1) - (y - y1)(x2 - x1)
-  std::string text;        ///< "(5 - 1)*7 - (3 - 1)*2 = 24", with signs of mathematics
+  std::string text;        ///< "(5 − 1)·7 − (3 − 1)·(−2) = 32"
 };
 EdgeSum edge_sum(const Crossing& edge, int x, int y);
 /// "12/7 = 1.71", or "3"; in lowest terms.

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# run.sh FAROP_REPORT_DEMO: writes a report and drives it in a browser.
+# run.sh FAROP_REPORT_DEMO: writes a report and drives it in a browser. Exit status 77: a tool is missing.
 set -euo pipefail
 command -v node > /dev/null || { echo "skipped: Node is missing"; exit 77; }
 folder=$(mktemp -d)

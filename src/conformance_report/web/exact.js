@@ -11,6 +11,9 @@ const Exact = (() => {
     return d === 1n ? `${n}` : `${n}/${d} = ${(Number(n) / Number(d)).toFixed(2)}`;
   };
 
+  /// As a factor or a term: "(−3)" where it is negative.
+  const signed = (n) => n < 0 ? `(−${-n})` : `${n}`;
+
   /// The plane n(x, y) / d through all corners of one component; null where they are not on one.
   const plane = (polygon, component) => {
     const v = polygon.map((q) => [q[0], q[1], q[component]].map(BigInt));
@@ -29,7 +32,7 @@ const Exact = (() => {
     return null;
   };
 
-  /// The edges that count on row y under the rule lb, and what decides for the sample (x, y).
+  /// The edges that count on row y under the rule lb, from left to right, and what decides for the sample (x, y).
   const decisions = (polygon, x, y) => {
     const list = [];
     polygon.forEach((p, i) => {
@@ -40,9 +43,10 @@ const Exact = (() => {
       const value = (BigInt(x) - x1) * (y2 - y1) - (BigInt(y) - y1) * (x2 - x1);
       list.push({low, high, value, counts: value >= 0n,
         crossing: text(x1 * (y2 - y1) + (BigInt(y) - y1) * (x2 - x1), y2 - y1),
-        sum: `(${x} − ${x1})·${y2 - y1} − (${y} − ${y1})·${x2 - x1} = ${value}`});
+        at: Number(x1) + (y - Number(y1)) * Number(x2 - x1) / Number(y2 - y1),
+        sum: `(${x} − ${signed(x1)})·${y2 - y1} − (${y} − ${signed(y1)})·${signed(x2 - x1)} = ${value < 0n ? `−${-value}` : value}`});
     });
-    return list;
+    return list.sort((a, b) => a.at - b.at);
   };
   const covers = (polygon, x, y) => decisions(polygon, x, y).filter((d) => d.counts).length % 2 === 1;
 

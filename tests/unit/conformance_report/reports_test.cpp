@@ -177,5 +177,25 @@ TEST(RowStory, CountsParityLikeTheOracle) {
   }
 }
 
+TEST(RowStory, DecidesBySidesAsByCrossings) {
+  for (int x = -3; x <= 12; ++x) {
+    const std::vector<ScreenVertex> polygon = {
+        {-2, -5, 0, 0, 0, 0, 0}, {9, 4, 0, 0, 0, 0, 0}, {1, 8, 0, 0, 0, 0, 0}};
+    for (int y = -5; y < 8; ++y) {
+      for (const Crossing& c : crossings(polygon, y))
+        EXPECT_EQ(edge_sum(c, x, y).value >= 0, c.numerator <= x * c.denominator) << x << ' ' << y;
+    }
+  }
+  const Crossing edge{0, 1, {-1, -3, 0, 0, 0, 0, 0}, {-4, 2, 0, 0, 0, 0, 0}};
+  EXPECT_EQ(edge_sum(edge, -5, 1).text,
+            "(-5 \u2212 (\u22121))\u00B75 \u2212 (1 \u2212 (\u22123))\u00B7(\u22123) = \u22128");
+}
+
+TEST(RowStory, WritesFractionsInLowestTerms) {
+  EXPECT_EQ(fraction(12662, 40), "6331/20 = 316.55");
+  EXPECT_EQ(fraction(80, 40), "2");
+  EXPECT_EQ(fraction(-3, 6), "-1/2 = -0.50");
+}
+
 }  // namespace
 }  // namespace farop::conformance_report
