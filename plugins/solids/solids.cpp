@@ -334,8 +334,10 @@ void Solids::find_solids() {
     for (std::uint32_t i = 0; i < polygon.corner_count; ++i) {
       const std::uint32_t to = ids[i];
       if (to == FAROP_NO_VERTEX_ID) surface.solid = false;
-      if (from < to) surface.balance += mixed(from, to);
-      if (from > to) surface.balance -= mixed(to, from);
+      // Without branches, which way an edge runs could not be foretold: h, -h or, from a corner to itself, 0.
+      const std::uint64_t h = from == to ? 0 : mixed(std::min(from, to), std::max(from, to));
+      const std::uint64_t backwards = from > to ? ~std::uint64_t{0} : 0;
+      surface.balance += (h ^ backwards) - backwards;
       from = to;
     }
   }
@@ -365,20 +367,27 @@ void Solids::build_edge_table() {
 // part: then it crosses itself, and its corners turn both ways.
 bool Solids::is_back_face(const Polygon& polygon) {
   if (!polygon.back_facing) return false;
-  const std::int64_t area = back_face_sign() * twice_area(polygon);
-  const std::uint32_t count = polygon.corner_count;
-  if (area <= 0) return area == 0 && count == 3;
-  if (count == 3) return true;
+  const int sign = back_face_sign();
   const farop_vertex* const v = &corners_[polygon.first_corner];
+  const std::uint32_t count = polygon.corner_count;
+  if (count == 3) return sign * turn(v[0], v[1], v[2]) >= 0;
+  if (count == 4) {
+    // Both diagonals cut it into two triangles: the four ways that its corners turn.
+    const std::int64_t at_1 = sign * turn(v[0], v[1], v[2]), at_3 = sign * turn(v[0], v[2], v[3]);
+    const std::int64_t at_2 = sign * turn(v[1], v[2], v[3]), at_0 = at_1 + at_3 - at_2;
+    return at_1 + at_3 > 0 && std::min({at_0, at_1, at_2, at_3}) >= 0;
+  }
+  const std::int64_t area = sign * twice_area(polygon);
+  if (area <= 0) return false;
   std::int64_t length = 0;
   bool both_ways = false;
   for (std::uint32_t i = 0, last = count - 1, before_last = count - 2; i < count;
        before_last = last, last = i++) {
     length += std::abs(v[i].x - v[last].x) + std::abs(v[i].y - v[last].y);
-    both_ways = both_ways || back_face_sign() * turn(v[before_last], v[last], v[i]) < 0;
+    both_ways = both_ways || sign * turn(v[before_last], v[last], v[i]) < 0;
   }
   // Polygons of more corners may well be concave; rounding can turn over thin ones only.
-  return !(both_ways && (count == 4 || area <= length));
+  return !(both_ways && area <= length);
 }
 
 // Which way round back faces run on the screen: it depends on whether y points up or down.
