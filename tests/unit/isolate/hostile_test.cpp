@@ -216,7 +216,7 @@ TEST(Hostile, ThereAreEnoughOfThem) {
 }
 
 TEST(Hostile, FilesThatAreNoLibrariesAreRefusedInWords) {
-  const fs::path folder = fs::path(FAROP_TEST_PLUGINS) / "bad-files";
+  const fs::path folder = fs::path(FAROP_TEST_PLUGINS) / ("bad-files-" + suite());
   fs::create_directories(folder);
   const std::string hostile = FAROP_HOSTILE;
   const std::string command = std::string("sh ") + FAROP_HOSTILE_SOURCES + "/make-bad-files.sh '" +
