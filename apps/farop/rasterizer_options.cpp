@@ -89,8 +89,7 @@ void add_rasterizer_options(CLI::App& command, RasterizerOptions& options) {
           .add_option("--rasterizer", options.name, "internal, scanline, null (draws none), yours [internal]")
           ->type_name("NAME|FILE.so|FILE.py"));
   group(command
-            .add_option("--threads", options.threads,
-                        "processors of the internal rasterizer [all]; threads your library may have [1]")
+            .add_option("--threads", options.threads, "of the internal rasterizer [all]; of your library [1]")
             ->check(CLI::Range(1, 1024))
             ->type_name("N"));
   group(command.add_option("--cmd", options.command, "a program: reads a flat file, writes a PPM")

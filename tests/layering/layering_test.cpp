@@ -40,7 +40,7 @@ const std::map<std::string, Rooms> k_guests = {{"CGAL", {"src/geometry", "src/so
                                                {"OpenImageIO", {"src/export"}},
                                                {"CLI", {"apps/farop"}},
                                                {"hwy", {"src/raster", "src/geometry"}},
-                                               {"tbb", {"src/raster", "src/geometry"}},
+                                               {"tbb", {"src/parse_nff", "src/raster", "src/geometry"}},
                                                {"tcl.h", {"src/parse_sipp"}},
                                                {"nlohmann", {"apps/farop", "src/conformance_report"}},
                                                {"mstch", {"src/conformance_report"}}};
