@@ -16,7 +16,8 @@ TEST(CheckCommand, PassesTheShippedRasterizers) {
   for (const char* name : {"internal", "trapezoid", "scanline_fill", "watkins", "solids"}) {
     const Outcome run = shell(folder, std::string("farop check -q ") + name);
     EXPECT_EQ(run.status, 0) << run.out << run.err;
-    EXPECT_TRUE(run.out.starts_with("pass: ")) << run.out;
+    // A remark on how the time grows may stand before it.
+    EXPECT_NE(("\n" + run.out).find("\npass: "), std::string::npos) << run.out;
   }
 }
 
