@@ -148,10 +148,11 @@ TEST(HostileCheck, DoesNotDisturbAnInnocentBesideIt) {
     const TemporaryFolder other;
     Outcome hostile;
     std::thread neighbour([&] {
-      hostile =
-          shell(other, "farop render '" + (folder / "gears.nff").string() +
-                           "' -q --resolution 64x64 -o x.ppm --cpu 1 --memory 256 --threads 8 --rasterizer " +
-                           rasterizer_of(row));
+      hostile = shell(
+          other,
+          "farop render '" + (folder / "gears.nff").string() +
+              "' -q --resolution 64x64 -o x.ppm --cpu 1 --wall 100 --memory 256 --threads 8 --rasterizer " +
+              rasterizer_of(row));
     });
     for (int i = 0; i < 3; ++i) {
       const Outcome beside = shell(folder, innocent);
