@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
@@ -183,6 +184,9 @@ class Cage {
 
   PluginLog logger() {
     return [this](farop_log_level level, const std::string& line) {
+      // The judge shows no more than that; the line that goes beyond tells it so.
+      if (log_bytes_ > k_max_log_bytes) return;
+      log_bytes_ += line.size() + 1;
       LogLine message;
       message.reply = reply(ReplyKind::log, 0);
       message.reply.status = level;
@@ -497,6 +501,7 @@ class Cage {
     frame_lost_ = false;
     bury_frame();
     services_.forget_words();
+    log_bytes_ = 0;
     if (request.memory > 1) std::_Exit(k_exit_control);
     FrameMemory& store = memories_[request.memory];
     if (memory) {
@@ -601,6 +606,7 @@ class Cage {
   std::optional<PluginCheck> check_;
   void* self_ = nullptr;
   std::uint32_t serial_ = 0;
+  std::atomic<std::size_t> log_bytes_{0};  ///< in this frame; any thread may log
   bool frame_lost_ = true;
   std::array<FrameMemory, 2> memories_;
   std::array<farop_frame, 2> frames_{};

@@ -46,8 +46,7 @@ namespace {
 constexpr std::size_t k_first_batch_bytes = std::size_t{16} << 10, k_batch_bytes = std::size_t{256} << 10;
 constexpr std::uint64_t k_page = 4096;
 constexpr std::ptrdiff_t k_max_own_memories = 2;
-constexpr std::int64_t k_least_leak = 128 << 10;                ///< bytes per frame that are worth a word
-constexpr std::size_t k_max_log_bytes = std::size_t{64} << 10;  ///< lines taken per frame
+constexpr std::int64_t k_least_leak = 128 << 10;  ///< bytes per frame that are worth a word
 
 std::uint64_t whole_pages(std::uint64_t bytes) {
   return (bytes + k_page - 1) / k_page * k_page;
@@ -519,7 +518,7 @@ class IsolatedRasterizer::Judge {
 
   void on(const LogLine& line) {
     const std::size_t length = std::min<std::size_t>(line.length, sizeof line.text);
-    log_bytes_ += length;
+    log_bytes_ += length + 1;
     if (log_bytes_ > k_max_log_bytes) {
       return warn_once("limit.output", "it logged more than 64 KiB in one frame; the rest is not shown",
                        "log what went wrong, not what went right");

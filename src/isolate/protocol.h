@@ -40,6 +40,7 @@ constexpr std::uint64_t k_slot_bytes = std::uint64_t{1} << 20;
 constexpr std::uint64_t k_guard_bytes = std::uint64_t{16} << 20;  ///< no-man's-land on either side
 constexpr std::uint64_t k_apron_bytes = std::uint64_t{64} << 10;  ///< random bytes beside the frame
 constexpr std::size_t k_max_text = 4096;
+constexpr std::size_t k_max_log_bytes = std::size_t{64} << 10;  ///< lines taken per frame
 
 enum class Mode : std::uint32_t { draw, probe };
 

@@ -25,7 +25,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr int k_pipe_bytes = 256 << 10;
+constexpr int k_pipe_bytes = 1 << 20;  // what anybody may have
 
 [[noreturn]] void cannot(const char* what, int error) {
   throw Error(ExitStatus::surroundings,
