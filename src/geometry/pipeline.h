@@ -30,7 +30,8 @@ struct GeometryOptions {
   bool light_at_eye = true;    ///< a white light at the eye for a scene without lights
   bool unlit = false;          ///< black instead of lighting: where depths alone count
   GeometryPath path = GeometryPath::batched;
-  /// That work on the batched path, the caller's included; the result is the same for any number. The sink is
+  /// That work on the batched path, the caller's included; 0: as many as the machine gives this process. The
+  /// result is the same for any number. The sink is
   /// called by the caller's thread alone, as are shaders that are not pure.
   int threads = 1;
 };

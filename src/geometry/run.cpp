@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/run.h"
 
+#include <tbb/info.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -31,6 +33,12 @@ PolygonCounts& operator+=(PolygonCounts& sum, const PolygonCounts& c) {
   return sum;
 }
 
+std::size_t thread_count(const GeometryOptions& options) {
+  if (options.path == GeometryPath::plain) return 1;
+  const int wanted = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
+  return static_cast<std::size_t>(std::clamp(wanted, 1, k_most_threads));
+}
+
 }  // namespace
 
 GeometryRun::GeometryRun(const Scene& scene, const GeometrySetup& setup, const GeometryOptions& options,
@@ -41,11 +49,10 @@ GeometryRun::GeometryRun(const Scene& scene, const GeometrySetup& setup, const G
       progress_(progress),
       total_(progress ? totals(scene).polygons : 0),
       wants_(sink.wants()),
-      threads_(static_cast<std::size_t>(std::clamp(options.threads, 1, k_most_threads))),
+      threads_(thread_count(options)),
       world_to_eye_(world_to_eye(setup.camera)) {
   report_.degenerate_of_input.resize(scene.root.children.size());
   if (options.path == GeometryPath::plain) {
-    threads_ = 1;
     plain_.emplace(setup, options, wants_);
   } else {
     for (std::size_t i = 0; i < threads_; ++i)

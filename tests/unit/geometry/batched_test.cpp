@@ -125,7 +125,7 @@ TEST(Batched, KeepsTheOrderOfSurfacesThatManyThreadsWorkOn) {
   }
   const Everything plain = run(scene, GeometryPath::plain, 1);
   ASSERT_GT(plain.all.vertices.size(), 100'000u);
-  for (const int threads : {1, 2, 3, 8})
+  for (const int threads : {0, 1, 2, 3, 8})
     ASSERT_EQ(difference(plain, run(scene, GeometryPath::batched, threads)), "") << threads << " threads";
 }
 
