@@ -65,8 +65,7 @@ struct BatchedStage::Arrays {
 
 BatchedStage::BatchedStage(const GeometrySetup& setup, const GeometryOptions& options,
                            const PolygonWants& wants)
-    : setup_(setup),
-      options_(options),
+    : options_(options),
       wants_(wants),
       mapping_(setup.device_mapping()),
       frustum_(setup.frustum()),

@@ -77,7 +77,6 @@ class BatchedStage {
   void write_vertices(std::size_t survivor, ScreenVertex* out) const;
   void append_attributes(std::size_t survivor, ScreenPolygonBatch& batch) const;
 
-  const GeometrySetup& setup_;
   const GeometryOptions& options_;
   const PolygonWants& wants_;
   DeviceMapping mapping_;
