@@ -27,15 +27,24 @@ if(FAROP_BUILD_FUZZERS)
 endif()
 
 # Headers that nearly every file includes are compiled once: without that, reading them is half of a build. Sources name
-# what they include all the same (the preset "tidy" compiles without this). Programs and libraries need one each.
-set(farop_empty_source "${PROJECT_BINARY_DIR}/headers/empty.cpp")
-if(NOT EXISTS "${farop_empty_source}")
-  file(WRITE "${farop_empty_source}" "int main() {}\n")
+# what they include all the same (the other presets compile without this: GCC 12 then takes false warnings of its optimiser
+# about std::string for ours). Programs and libraries need one each.
+if(FAROP_SANITIZE)
+  set(farop_empty_source "${PROJECT_BINARY_DIR}/headers/empty.cpp")
+  file(GENERATE OUTPUT "${farop_empty_source}" CONTENT "int main() {}\n")
+  add_library(farop_stage_headers STATIC "${farop_empty_source}")
+  set_target_properties(farop_stage_headers PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  target_link_libraries(farop_stage_headers PRIVATE fmt::fmt farop_build_flags)
+  target_precompile_headers(farop_stage_headers PRIVATE <algorithm> <array> <cmath> <cstdint> <functional> <map> <memory> <optional>
+                                                        <span> <string> <string_view> <unordered_map> <vector> <fmt/format.h>)
+  if(FAROP_BUILD_TESTS)
+    add_executable(farop_test_headers "${farop_empty_source}")
+    target_link_libraries(farop_test_headers PRIVATE GTest::gtest farop_build_flags)
+    target_compile_options(farop_test_headers PRIVATE -O0)
+    target_precompile_headers(farop_test_headers PRIVATE <algorithm> <array> <cmath> <cstdint> <filesystem> <fstream> <functional> <map>
+                                                         <memory> <random> <sstream> <string> <vector> <gtest/gtest.h>)
+  endif()
 endif()
-add_library(farop_stage_headers STATIC "${farop_empty_source}")
-set_target_properties(farop_stage_headers PROPERTIES POSITION_INDEPENDENT_CODE ON)
-target_precompile_headers(farop_stage_headers PRIVATE <algorithm> <array> <cmath> <cstdint> <functional> <map> <memory> <optional>
-                                                      <span> <string> <string_view> <unordered_map> <vector> <fmt/format.h>)
 
 # farop_add_stage(NAME SOURCES ... [PUBLIC libs] [PRIVATE libs]): one library per room of src/.
 function(farop_add_stage name)
@@ -49,7 +58,7 @@ function(farop_add_stage name)
   target_compile_features(farop_${name} PUBLIC cxx_std_20)
   target_link_libraries(farop_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE} $<BUILD_INTERFACE:farop_build_flags>)
   # CGAL brings flags of its own.
-  if(NOT "${ARG_PUBLIC};${ARG_PRIVATE}" MATCHES "CGAL")
+  if(FAROP_SANITIZE AND NOT "${ARG_PUBLIC};${ARG_PRIVATE}" MATCHES "CGAL")
     target_precompile_headers(farop_${name} REUSE_FROM farop_stage_headers)
   endif()
 endfunction()
@@ -71,8 +80,10 @@ function(farop_add_test name)
   target_compile_definitions(${name} PRIVATE FAROP_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   target_link_libraries(${name} PRIVATE ${ARG_LIBS} GTest::gtest_main farop_build_flags)
   if(NOT ARG_OPTIMIZED)
-    target_precompile_headers(${name} REUSE_FROM farop_test_headers)
     target_compile_options(${name} PRIVATE ${farop_test_optimization})
+    if(FAROP_SANITIZE)
+      target_precompile_headers(${name} REUSE_FROM farop_test_headers)
+    endif()
   endif()
   if(NOT ARG_SHARDS)
     set(ARG_SHARDS 1)
