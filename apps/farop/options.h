@@ -20,6 +20,8 @@ struct InputOptions {
   std::vector<std::string> files;
   std::string format;  ///< "nff", "sipp", or empty: by suffix
   bool strict = false;
+  int threads = 1;                                ///< that read a file in NFF
+  std::size_t part_bytes = std::size_t{8} << 20;  ///< of a scene that is streamed
   // Of scripts:
   std::vector<std::string> defines;  ///< NAME=VALUE
   int capture = 1;                   ///< which render request counts

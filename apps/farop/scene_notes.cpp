@@ -73,8 +73,12 @@ void log_scene(Console& console, const Scene& scene) {
   if (scene.view.background) console.log("{} background loaded", format);
   if (scene.view.from) console.log("{} view parameters loaded", format);
   for (const Light& light : scene.lights) console.log("{} light loaded {}", format, light_text(light));
-  for_each_surface(
-      scene, [&](const SurfacePlacement& placement) { console.log("{}", log_text(placement.surface)); });
+  for_each_surface(scene,
+                   [&](const SurfacePlacement& placement) { log_surface(console, placement.surface); });
+}
+
+void log_surface(Console& console, const Surface& surface) {
+  if (console.verbose()) console.log("{}", log_text(surface));
 }
 
 DrawMode drawing_mode(Console& console, const std::string& option, const Scene& scene, bool internal) {

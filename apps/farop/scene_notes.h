@@ -19,6 +19,8 @@ bool all_sipp(const Scene& scene);
 
 /// The log of one input, in the words of the 1997 system: background, view, lights, surfaces (--verbose).
 void log_scene(Console& console, const Scene& scene);
+/// Its line about a surface, or about a part of one.
+void log_surface(Console& console, const Surface& surface);
 
 /// One line about a light: kind, place, colour.
 std::string light_text(const Light& light);

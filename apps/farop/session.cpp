@@ -28,12 +28,6 @@ std::string lower_suffix(const std::string& file) {
   return suffix;
 }
 
-bool is_script(const std::string& file, const InputOptions& options) {
-  const std::string suffix = lower_suffix(file);
-  if (suffix == ".sipp" || suffix == ".tcl") return true;
-  return suffix != ".nff" && options.format == "sipp";
-}
-
 void check_format(const std::string& file, const InputOptions& options) {
   const std::string suffix = lower_suffix(file);
   if (!options.format.empty() || file == "-" || suffix == ".nff" || is_script(file, options)) return;
@@ -57,9 +51,8 @@ void log_import(Console& console, const Scene& scene) {
               in.polygons + in.patches, in.spheres, in.cones);
 }
 
-Scene load_nff(Session& session, const std::string& file) {
+Scene load_nff(Session& session, const std::string& file, NffOptions options) {
   WordReader reader(file);
-  NffOptions options;
   options.progress = session.console.progress("parsing");
   session.console.log("NFF scene '{}' will be imported!", reader.name());
   session.console.log("Parsing NFF file, wait...");
@@ -99,43 +92,6 @@ Scene load_script(Session& session, const std::string& file, const SippOptions& 
   return std::move(*scene);
 }
 
-void override_view(ViewParameters& view, const ViewParameters& options) {
-  const auto take = [](auto& old, const auto& next) {
-    if (next) old = next;
-  };
-  take(view.from, options.from);
-  take(view.at, options.at);
-  take(view.up, options.up);
-  take(view.angle, options.angle);
-  take(view.fit, options.fit);
-  take(view.hither, options.hither);
-  take(view.yon, options.yon);
-  take(view.resolution, options.resolution);
-  take(view.background, options.background);
-}
-
-LoadedView complete_view(Session& session, const Scene& scene, const ViewOptions& options,
-                         const Viewport& defaults) {
-  LoadedView view{complete_camera(scene.view, session.console), defaults};
-  Viewport& viewport = view.viewport;
-  const ViewParameters::Size size = complete_resolution(scene.view, session.console);
-  viewport.resolution.x = size.x;
-  viewport.resolution.y = size.y;
-  if (!options.resolution.empty()) {
-    const RequestedResolution r = parse_resolution(options.resolution);
-    viewport.resolution.z = r.z.value_or(defaults.resolution.z);
-    viewport.resolution.color = r.color.value_or(defaults.resolution.color);
-  }
-  viewport.subpixel_bits = options.subpixel_bits.value_or(defaults.subpixel_bits);
-  const bool internal = defaults.pixel_fit == PixelFit::edges;
-  const bool edges =
-      options.pixel_fit == "edges" || (options.pixel_fit == "auto" && internal && viewport.subpixel_bits > 0);
-  viewport.pixel_fit = edges ? PixelFit::edges : PixelFit::centres;
-  viewport.half_pixel_border = internal && edges && viewport.subpixel_bits > 0;
-  viewport.y_down = options.y_down && !internal;
-  return view;
-}
-
 void average_all_normals(Object& object) {
   for (const auto& surface : object.surfaces) {
     if (surface->averaged_normals.empty()) average_normals(*surface);
@@ -156,6 +112,59 @@ std::string plural(std::uint64_t n, std::string_view noun) {
 
 }  // namespace
 
+bool is_script(const std::string& file, const InputOptions& options) {
+  const std::string suffix = lower_suffix(file);
+  if (suffix == ".sipp" || suffix == ".tcl") return true;
+  return suffix != ".nff" && options.format == "sipp";
+}
+
+void override_view(ViewParameters& view, const ViewParameters& next) {
+  const auto take = [](auto& old, const auto& given) {
+    if (given) old = given;
+  };
+  take(view.from, next.from);
+  take(view.at, next.at);
+  take(view.up, next.up);
+  take(view.angle, next.angle);
+  take(view.fit, next.fit);
+  take(view.hither, next.hither);
+  take(view.yon, next.yon);
+  take(view.resolution, next.resolution);
+  take(view.background, next.background);
+}
+
+void apply_options(ViewParameters& view, const ViewOptions& options) {
+  override_view(view, view_parameters(options));
+  if (yon_is_forced_auto(options)) view.yon.reset();
+}
+
+LoadedView complete_view(const ViewParameters& parameters, const ViewOptions& options,
+                         const Viewport& defaults, DiagnosticSink& sink) {
+  LoadedView view{complete_camera(parameters, sink), defaults};
+  Viewport& viewport = view.viewport;
+  const ViewParameters::Size size = complete_resolution(parameters, sink);
+  viewport.resolution.x = size.x;
+  viewport.resolution.y = size.y;
+  if (!options.resolution.empty()) {
+    const RequestedResolution r = parse_resolution(options.resolution);
+    viewport.resolution.z = r.z.value_or(defaults.resolution.z);
+    viewport.resolution.color = r.color.value_or(defaults.resolution.color);
+  }
+  viewport.subpixel_bits = options.subpixel_bits.value_or(defaults.subpixel_bits);
+  const bool internal = defaults.pixel_fit == PixelFit::edges;
+  const bool edges =
+      options.pixel_fit == "edges" || (options.pixel_fit == "auto" && internal && viewport.subpixel_bits > 0);
+  viewport.pixel_fit = edges ? PixelFit::edges : PixelFit::centres;
+  viewport.half_pixel_border = internal && edges && viewport.subpixel_bits > 0;
+  viewport.y_down = options.y_down && !internal;
+  return view;
+}
+
+DetailView detail_view(const LoadedView& view, int samples) {
+  const ViewTangents tangents = view_tangents(view.camera, view.viewport);
+  return {view.camera.from, tangents.y, view.viewport.resolution.y * samples};
+}
+
 void Session::stop_if_strict_found_errors() const {
   if (console.errors() > 0) throw Error(ExitStatus::input, "");
 }
@@ -175,7 +184,8 @@ void Session::finish(ExitStatus status) {
   if (!options.trace_file.empty()) write_trace(*this);
 }
 
-void load_inputs(Session& session, const InputOptions& options) {
+void load_inputs(Session& session, const InputOptions& options, NffOptions nff) {
+  nff.threads = options.threads;
   session.console.set_strict(options.strict);
   if (std::count(options.files.begin(), options.files.end(), "-") > 1) {
     throw Error(ExitStatus::usage, "standard input (-) is given twice", "it can be read only once");
@@ -186,7 +196,7 @@ void load_inputs(Session& session, const InputOptions& options) {
     std::optional<Scene> next;
     {
       const TimedSlice slice(session.clocks.parse);
-      next = is_script(file, options) ? load_script(session, file, scripts) : load_nff(session, file);
+      next = is_script(file, options) ? load_script(session, file, scripts) : load_nff(session, file, nff);
     }
     const TimedSlice slice(session.clocks.load);
     merge_into(session.scene, std::move(*next), session.console);
@@ -200,14 +210,12 @@ std::optional<LoadedView> finish_loading(Session& session, const ViewOptions& op
                                          int samples, bool needs_camera) {
   const TimedSlice slice(session.clocks.load);
   Scene& scene = session.scene;
-  override_view(scene.view, view_parameters(options));
-  if (yon_is_forced_auto(options)) scene.view.yon.reset();
+  apply_options(scene.view, options);
   std::optional<LoadedView> view;
   Detail detail{detail_resolution(scene_options), std::nullopt};
   if (needs_camera || (scene.view.from && scene.view.at && *scene.view.from != *scene.view.at)) {
-    view = complete_view(session, scene, options, defaults);
-    const ViewTangents tangents = view_tangents(view->camera, view->viewport);
-    detail.view = DetailView{view->camera.from, tangents.y, view->viewport.resolution.y * samples};
+    view = complete_view(scene.view, options, defaults, session.console);
+    detail.view = detail_view(*view, samples);
   }
   tessellate_scene(scene, detail);
   if (scene_options.normals == "shared") {
@@ -243,22 +251,23 @@ void prepare_drawing(Session& session, const LoadedView& view, const GeometryOpt
   session.report.picture = view.viewport.resolution;
 }
 
-void draw(Session& session, const GeometryOptions& options, ScreenPolygonSink& sink) {
+void begin_drawing(Session& session, const GeometryOptions& options, const ScreenPolygonSink& sink,
+                   const SceneTotals& sums) {
   Console& console = session.console;
-  const Scene& scene = session.scene;
   const GeometrySetup& setup = *session.report.setup;
   const Resolution& r = session.report.picture;
   console.log("Hither:{:.2f}, Yon:{:.2f}, Resolution(X,Y,Z,Color):{},{},{},{}", setup.hither, setup.yon, r.x,
               r.y, r.z, r.color);
-  const SceneTotals sums = totals(scene);
   console.log("Objects loaded: {}\nSurfaces loaded: {}\nPolygons loaded: {}", sums.objects, sums.surfaces,
               sums.polygons);
   const bool per_pixel = sink.wants().textures;
-  if (!per_pixel && !options.unlit) note_lost_patterns(console, scene);
+  if (!per_pixel && !options.unlit) note_lost_patterns(console, session.scene);
   console.log("Creating render data, wait...\nTimer started");
-  session.report.geometry =
-      run_geometry(scene, setup, options, sink, session.clocks.drawing, console.progress("drawing"));
-  console.end_progress();
+}
+
+void end_drawing(Session& session) {
+  Console& console = session.console;
+  const Scene& scene = session.scene;
   log_time(console, session.clocks.drawing.geometry.total());
   const GeometryReport& done = *session.report.geometry;
   for (std::size_t i = 0; i < done.degenerate_of_input.size() && i < scene.inputs.size(); ++i) {
@@ -270,6 +279,14 @@ void draw(Session& session, const GeometryOptions& options, ScreenPolygonSink& s
     console.report(std::move(d));
   }
   session.stop_if_strict_found_errors();
+}
+
+void draw(Session& session, const GeometryOptions& options, ScreenPolygonSink& sink) {
+  begin_drawing(session, options, sink, totals(session.scene));
+  session.report.geometry = run_geometry(session.scene, *session.report.setup, options, sink,
+                                         session.clocks.drawing, session.console.progress("drawing"));
+  session.console.end_progress();
+  end_drawing(session);
 }
 
 std::string output_path(const std::string& output, const std::vector<std::string>& inputs,

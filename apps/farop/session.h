@@ -12,9 +12,12 @@
 #include "geometry/pipeline.h"
 #include "isolate/isolation.h"
 #include "options.h"
+#include "parse_nff/parse_nff.h"
 #include "plugin/plugin_rasterizer.h"
+#include "scene/bounds.h"
 #include "scene/scene.h"
 #include "scene/tessellate.h"
+#include "scene/traverse.h"
 
 namespace farop::app {
 
@@ -28,11 +31,20 @@ struct RunClocks {
   void trace_to(TraceLog& log);
 };
 
+/// What is known of a scene that went by in parts (streaming.h).
+struct StreamedScene {
+  SceneTotals totals;  ///< vertices: of all parts, which may share some; memory_bytes: of the largest part
+  std::optional<Bounds> bounds;
+  std::uint64_t spheres_skipped = 0, cones_skipped = 0;
+  int readings = 0;  ///< times that the inputs were read
+};
+
 /// What a run has found out, for --stats and the summaries. Parts that do not apply stay empty.
 struct RunReport {
   std::string command;
   std::vector<InputSummary> inputs;
   bool has_scene = false;
+  std::optional<StreamedScene> streamed;  ///< the scene's surfaces are not in memory
   std::optional<GeometrySetup> setup;
   Resolution picture;  ///< of the frame without super-sampling
   std::optional<GeometryReport> geometry;
@@ -66,15 +78,27 @@ class Session {
   void stop_if_strict_found_errors() const;
 };
 
-/// Parses and merges the inputs into session.scene. Throws Error(input) after the diagnostic has been
-/// reported.
-void load_inputs(Session& session, const InputOptions& options);
+/// Whether the file is a scene by script: by its suffix, else by --format.
+bool is_script(const std::string& file, const InputOptions& options);
+
+/// Parses and merges the inputs into session.scene; those in NFF with these options, progress aside. Throws
+/// Error(input) after the diagnostic has been reported.
+void load_inputs(Session& session, const InputOptions& options, NffOptions nff = {});
 
 /// A camera and the picture it fills.
 struct LoadedView {
   Camera camera;
   Viewport viewport;
 };
+
+/// What `next` gives takes the place of what `view` has; the options the same, with --yon auto.
+void override_view(ViewParameters& view, const ViewParameters& next);
+void apply_options(ViewParameters& view, const ViewOptions& options);
+/// Camera and picture of a view that the options are part of already; `defaults` has what they do not say.
+LoadedView complete_view(const ViewParameters& view, const ViewOptions& options, const Viewport& defaults,
+                         DiagnosticSink& sink);
+/// Where `--detail auto` looks round from.
+DetailView detail_view(const LoadedView& view, int samples);
 
 /// The end of loading: options override the view, curved primitives become polygons, vertex normals are
 /// averaged. `defaults` has what neither scene nor options say. With a camera, `--detail auto` looks round in
@@ -88,6 +112,11 @@ GeometryOptions geometry_options(Session& session, const SceneOptions& options, 
 
 /// Completes the frame, super-sampled `samples` times in both directions, into session.report.setup.
 void prepare_drawing(Session& session, const LoadedView& view, const GeometryOptions& options, int samples);
+
+/// What is logged before and after the geometry stage, and its warnings; `sums` of the whole scene.
+void begin_drawing(Session& session, const GeometryOptions& options, const ScreenPolygonSink& sink,
+                   const SceneTotals& sums);
+void end_drawing(Session& session);
 
 /// Geometry stage into a sink, with its log and its warnings; after prepare_drawing().
 void draw(Session& session, const GeometryOptions& options, ScreenPolygonSink& sink);

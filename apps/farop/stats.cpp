@@ -57,18 +57,20 @@ Json inputs_json(const RunReport& report) {
   return inputs;
 }
 
-Json scene_json(const Scene& scene) {
-  const SceneTotals sums = totals(scene);
+Json scene_json(const Scene& scene, const std::optional<StreamedScene>& streamed) {
+  const SceneTotals sums = streamed ? streamed->totals : totals(scene);
   Json json{{"objects", sums.objects},
             {"surfaces", sums.surfaces},
             {"vertices", sums.vertices},
             {"lights", scene.lights.size()},
             {"spheres_skipped", scene.spheres_skipped},
             {"cones_skipped", scene.cones_skipped}};
-  if (const auto box = world_bounds(scene)) json["bounds"] = {to_json(box->low), to_json(box->high)};
+  if (const auto box = streamed ? streamed->bounds : world_bounds(scene))
+    json["bounds"] = {to_json(box->low), to_json(box->high)};
   for (const auto& [kind, count] : shader_counts(scene)) json["shaders"][kind] = count;
   json["background"] = to_json(scene.view.background.value_or(Rgb{}));
   json["memory_bytes"] = sums.memory_bytes;
+  if (streamed) json["readings"] = streamed->readings;
   return json;
 }
 
@@ -142,7 +144,7 @@ void write_stats(const Session& session, ExitStatus status) {
             {"status", static_cast<int>(status)},
             {"warnings", session.console.warnings()},
             {"inputs", inputs_json(report)}};
-  if (report.has_scene) json["scene"] = scene_json(session.scene);
+  if (report.has_scene) json["scene"] = scene_json(session.scene, report.streamed);
   if (report.setup) json["view"] = view_json(*report.setup, report.picture);
   if (report.geometry) {
     json["polygons"] = polygons_json(report.geometry->counts);

@@ -16,22 +16,6 @@
 namespace farop {
 namespace {
 
-struct DepthRange {
-  double nearest = std::numeric_limits<double>::infinity();
-  double farthest = -std::numeric_limits<double>::infinity();
-};
-
-/// Of all vertices, along the view direction.
-DepthRange vertex_depths(const Scene& scene, const M44d& world_to_eye) {
-  DepthRange range;
-  for_each_surface(scene, [&](const SurfacePlacement& placement) {
-    const M44d m = placement.local_to_world * world_to_eye;
-    batched::depth_range(placement.surface.positions, m[0][2], m[1][2], m[2][2], m[3][2], range.nearest,
-                         range.farthest);
-  });
-  return range;
-}
-
 /// The light as it is seen from the eye. Rigid: directions stay unit vectors.
 LightSource to_eye_space(const Light& light, const M44d& to_eye, double intensity) {
   LightSource source;
@@ -64,6 +48,22 @@ std::uint32_t largest_corner_count(const Scene& scene) {
 
 }  // namespace
 
+DepthRange vertex_depths(const Scene& scene, const Camera& camera) {
+  const M44d to_eye = world_to_eye(camera);
+  DepthRange range;
+  for_each_surface(scene, [&](const SurfacePlacement& placement) {
+    const M44d m = placement.local_to_world * to_eye;
+    batched::depth_range(placement.surface.positions, m[0][2], m[1][2], m[2][2], m[3][2], range.nearest,
+                         range.farthest);
+  });
+  return range;
+}
+
+double auto_yon(double farthest, double hither) {
+  const double yon = std::max(0.0, farthest) * 1.000001;
+  return yon > hither ? yon : 2 * hither;
+}
+
 GeometrySetup prepare_geometry(const Scene& scene, const Camera& camera, const Viewport& viewport,
                                const GeometryOptions& options) {
   GeometrySetup setup;
@@ -73,13 +73,8 @@ GeometrySetup prepare_geometry(const Scene& scene, const Camera& camera, const V
   setup.hither = camera.near_distance();
   const M44d to_eye = world_to_eye(camera);
   DepthRange depths;
-  if (!camera.yon || camera.fit_depth) depths = vertex_depths(scene, to_eye);
-  if (camera.yon) {
-    setup.yon = *camera.yon;
-  } else {
-    setup.yon = std::max(0.0, depths.farthest) * 1.000001;
-    if (!(setup.yon > setup.hither)) setup.yon = 2 * setup.hither;
-  }
+  if (!camera.yon || camera.fit_depth) depths = vertex_depths(scene, camera);
+  setup.yon = camera.yon ? *camera.yon : auto_yon(depths.farthest, setup.hither);
   if (!(setup.yon > setup.hither)) {
     throw Error(ExitStatus::input, fmt::format("yon {} is not beyond hither {}", setup.yon, setup.hither),
                 "give a larger --yon, a smaller --hither, or --yon auto");

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -50,6 +51,15 @@ struct GeometrySetup {
   DeviceMapping device_mapping() const { return {viewport, tangents, nearest_depth, farthest_depth}; }
   Frustum frustum() const { return {tangents.x, tangents.y, hither, yon}; }
 };
+
+/// Of all vertices of a scene, along the view direction; infinities of a scene without any.
+struct DepthRange {
+  double nearest = std::numeric_limits<double>::infinity();
+  double farthest = -std::numeric_limits<double>::infinity();
+};
+DepthRange vertex_depths(const Scene& scene, const Camera& camera);
+/// What yon `auto` is where the farthest vertex is at `farthest`.
+double auto_yon(double farthest, double hither);
 
 /// Completes a frame: near plane, yon (`auto`: farthest vertex times 1.000001, twice hither where that is not
 /// beyond it), lights in eye space. Reads every vertex when yon is `auto`. Throws Error(ExitStatus::input)

@@ -34,6 +34,9 @@ constexpr const char* k_extra_hint =
 /// So many entities are read one by one at most before a run is tried again.
 constexpr std::uint32_t k_longest_plain_pause = 63;
 
+/// Text of a run where parts are handed over, which happens between runs.
+constexpr std::size_t k_longest_run_of_part = std::size_t{1} << 18;
+
 /// Numbers of a polygon that are read before its corners are stored.
 constexpr std::size_t k_numbers_at_once = 96;
 
@@ -61,6 +64,7 @@ Scene Parser::parse() {
   refuse_foreign_formats();
   const Keyword* entity = nullptr;  // mostly the one before
   while (!at_end_) {
+    if (options_.on_part) watch_part();
     if (entity == nullptr || word_.text != entity->name) entity = find_keyword(word_.text);
     if (entity == nullptr) fail_unknown_word();
     Word keyword = word_;
@@ -75,9 +79,10 @@ Scene Parser::parse() {
     (this->*entity->read)(keyword);
   }
   start_surface({});
+  if (options_.on_part) hand_over_part();
   report_suppressed_warnings();
   summary_.bytes = reader_.bytes_read();
-  summary_.surfaces = object_->surfaces.size();
+  summary_.surfaces = surfaces_;
   summary_.lights = scene_.lights.size();
   scene_.root.children.push_back(std::move(object_));
   scene_.inputs.push_back(std::move(summary_));
@@ -97,6 +102,7 @@ bool Parser::plain_run(const Word& keyword) {
   }
   std::string_view text = reader_.text_from(word_);
   if (ahead_ != nullptr) text = text.substr(0, ahead_->next_run() - word_.offset);
+  if (options_.on_part) text = text.substr(0, k_longest_run_of_part);
   const char* const end = text.data() + text.size();
   const PlainRun run = plain_runs_.read(text.data(), {end, end}, builder_, [this](const Material& material) {
     has_fill_ = true;
@@ -126,7 +132,7 @@ bool Parser::take_run_ahead() {
     const bool complete = &part != &run->parts.back();
     if (complete && builder_.empty()) {
       part.surface->material = builder_.material();
-      object_->surfaces.push_back(std::move(part.surface));
+      keep_surface(std::move(part.surface));
     } else {
       builder_.append(*part.surface);
       part.surface.reset();
@@ -573,7 +579,35 @@ void Parser::set_fill(Material material, const Word& shine_place, const Word& tr
 void Parser::start_surface(const Material& material) {
   const bool keep = !builder_.empty();
   Surface finished = builder_.take(material);
-  if (keep) object_->surfaces.push_back(std::make_shared<Surface>(std::move(finished)));
+  if (keep) keep_surface(std::make_shared<Surface>(std::move(finished)));
+  if (surface_kept_) ++surfaces_;
+  surface_kept_ = false;
+}
+
+void Parser::keep_surface(std::shared_ptr<Surface> surface) {
+  surface_kept_ = true;
+  if (options_.on_part) {
+    part_bytes_ += surface->memory_bytes();
+    part_curved_ += surface->curved.size();
+  }
+  object_->surfaces.push_back(std::move(surface));
+}
+
+void Parser::watch_part() {
+  if (part_bytes_ + builder_.memory_bytes() < options_.part_bytes &&
+      part_curved_ + builder_.curved_count() < options_.part_curved) {
+    return;
+  }
+  if (!builder_.empty()) {
+    const Material same = builder_.material();
+    keep_surface(std::make_shared<Surface>(builder_.take(same)));
+  }
+  hand_over_part();
+}
+
+void Parser::hand_over_part() {
+  if (!object_->surfaces.empty()) options_.on_part(scene_, std::exchange(object_->surfaces, {}));
+  part_bytes_ = part_curved_ = 0;
 }
 
 void Parser::before_object(const Word& keyword) {

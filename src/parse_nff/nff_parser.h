@@ -154,6 +154,10 @@ class Parser {
   void set_fill(Material material, const Word& shine_place, const Word& transmittance_place);
   void add_light(const Word& keyword, const Light& light);
   void start_surface(const Material& material);
+  void keep_surface(std::shared_ptr<Surface> surface);
+  /// Hands over what there is once it is enough for a part.
+  void watch_part();
+  void hand_over_part();
   void before_object(const Word& keyword);
   void add_triangle(const Word& keyword, const double* numbers, CornerFormat format);
   void count_polygon(bool with_normals) { ++(with_normals ? summary_.patches : summary_.polygons); }
@@ -180,6 +184,10 @@ class Parser {
   PlainRunReader plain_runs_;
   std::uint32_t plain_pause_ = 0;  ///< entities to read before a run is tried again
   std::uint32_t plain_pause_length_ = 0;
+  std::uint64_t surfaces_ = 0;  ///< that are complete
+  bool surface_kept_ = false;   ///< a part of the surface being built is in the object, or was handed over
+  std::size_t part_bytes_ = 0;  ///< of the surfaces in the object, with on_part
+  std::size_t part_curved_ = 0;
   bool has_view_ = false;
   bool has_fill_ = false;
   bool has_objects_ = false;

@@ -3,7 +3,10 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <memory>
 #include <optional>
+#include <vector>
 
 #include "core/diagnostics.h"
 #include "core/progress.h"
@@ -12,11 +15,22 @@
 
 namespace farop {
 
+/// Takes a part of a scene: surfaces in order, to keep or to let go. A large surface comes in several parts,
+/// each with vertices of its own. `so_far`: the lights and the view that stand before it; its object has no
+/// surfaces.
+using NffPartFunction =
+    std::function<void(const Scene& so_far, std::vector<std::shared_ptr<Surface>> surfaces)>;
+
 struct NffOptions {
   ProgressFunction progress;  ///< called with bytes read so far and bytes in all, once per block of input
   bool plain = false;         ///< the plain reader alone: same scene, same messages, slower; for comparison
   int threads = 1;  ///< that read at once; more than one helps with long files and texts, not with pipes
   std::size_t piece_bytes = std::size_t{1} << 18;  ///< of the text that a thread looks at as a unit
+  /// Where given, surfaces go there and not into the scene, whenever they have come to some `part_bytes` or
+  /// `part_curved` spheres and cones, and at the end: memory does not grow with the scene.
+  NffPartFunction on_part;
+  std::size_t part_bytes = std::size_t{8} << 20;
+  std::size_t part_curved = 4096;
   int warnings_per_kind = 3;  ///< further ones are only counted, in one closing line per kind
 };
 
@@ -34,7 +48,8 @@ struct NffOptions {
 ///
 /// Scene and messages do not depend on `threads` and `piece_bytes`.
 ///
-/// Memory grows with what was read, never with a count that the file merely announces. While reading, threads
+/// Memory grows with what was read, with `on_part` with its parts and the largest polygon alone, never with a
+/// count that the file merely announces. While reading, threads
 /// > 1 need some MB beside (nff_read_ahead.h), fixed by their number and `piece_bytes`.
 std::optional<Scene> parse_nff(WordReader& reader, DiagnosticSink& sink, const NffOptions& options = {});
 

@@ -93,6 +93,7 @@ class PolygonRecorder {
 
   std::uint64_t size() const { return count_; }
   bool empty() const { return count_ == 0; }
+  std::size_t memory_bytes() const { return records_.size() * sizeof(std::uint32_t); }
   /// The finished list; the recorder is empty afterwards.
   PolygonList take();
 

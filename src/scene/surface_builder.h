@@ -37,6 +37,12 @@ class SurfaceBuilder {
 
   /// Of the surface that is being built.
   const Material& material() const { return material_; }
+  /// Of what is in it, without the hash table.
+  std::size_t memory_bytes() const {
+    return (positions_.size() + normals_.size()) * sizeof(V3d) + polygons_.memory_bytes() +
+           curved_.size() * sizeof(CurvedPrimitive);
+  }
+  std::size_t curved_count() const { return curved_.size(); }
   bool empty() const { return polygons_.empty() && curved_.empty(); }
   /// The finished surface, its memory exactly what it holds; the builder is empty afterwards and keeps its
   /// table for reuse.

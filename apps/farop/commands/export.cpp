@@ -6,6 +6,7 @@
 #include "export/flat_writer.h"
 #include "scene_notes.h"
 #include "session.h"
+#include "streaming.h"
 
 namespace farop::app {
 namespace {
@@ -16,12 +17,20 @@ struct ExportOptions {
   ViewOptions view;
   SceneOptions scene;
   std::string mode;  ///< empty: the scene's
+  std::string stream = "auto";
 };
 
 void run(Session& session, const ExportOptions& options) {
   const std::string output = output_path(options.output, options.input.files, ".scr");
-  load_inputs(session, options.input);
-  const LoadedView view = *finish_loading(session, options.view, options.scene, Viewport{}, 1, true);
+  std::optional<StreamedDrawing> streamed;
+  if (should_stream(options.stream, options.input, options.scene)) {
+    streamed.emplace(session, options.input, options.view, options.scene, Viewport{});
+  } else {
+    load_inputs(session, options.input);
+  }
+  const LoadedView view = streamed
+                              ? streamed->finish_loading()
+                              : *finish_loading(session, options.view, options.scene, Viewport{}, 1, true);
   const bool flat = drawing_mode(session.console, options.mode, session.scene, false) == DrawMode::flat;
   const GeometryOptions geometry = geometry_options(session, options.scene, flat);
   prepare_drawing(session, view, geometry, 1);
@@ -29,7 +38,7 @@ void run(Session& session, const ExportOptions& options) {
   session.console.log("Flat file to be created: '{}'", output);
   OutputFile file(output);
   FlatWriter writer(file);
-  draw(session, geometry, writer);
+  streamed ? streamed->draw(geometry, writer) : draw(session, geometry, writer);
   file.commit();
   session.report.outputs.push_back(output);
   summarize_drawing(session, output);
@@ -57,6 +66,12 @@ void add_export(CommandLine& line) {
       ->check(CLI::IsMember({"flat", "gouraud"}))
       ->type_name("flat|gouraud")
       ->group("Drawing");
+  command
+      .add_option("--stream", options->stream,
+                  "read NFF files again instead of keeping them: 40 MB do [auto: from 64 MB of input on]")
+      ->check(CLI::IsMember({"auto", "on", "off"}))
+      ->type_name("auto|on|off")
+      ->group("Input");
   line.add_report_options(command);
 }
 

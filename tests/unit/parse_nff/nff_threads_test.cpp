@@ -195,6 +195,66 @@ TEST(NffThreads, GiveTheSameOfDamagedScenes) {
 }
 
 // Longer than any piece and any room around it: cut between words, or within a word that is cut anyway.
+/// All polygons and primitives of surfaces in order, whatever surfaces they are in.
+struct Flattened {
+  std::vector<double> numbers;
+
+  void add(const Surface& surface) {
+    std::size_t next = 0;
+    const auto curved_before = [&](std::uint64_t polygon) {
+      for (; next < surface.curved.size() && surface.curved[next].after_polygons <= polygon; ++next) {
+        const CurvedPrimitive& c = surface.curved[next];
+        numbers.insert(numbers.end(),
+                       {c.sphere.center.x, c.sphere.radius, c.cone.base.y, c.cone.apex_radius});
+      }
+    };
+    std::uint64_t index = 0;
+    for (const PolygonView polygon : surface.polygons) {
+      curved_before(index++);
+      numbers.insert(numbers.end(), {surface.material.color.r, surface.material.shine, surface.material.ks});
+      for (const std::uint32_t v : polygon.corners) {
+        const V3d p = surface.positions[v];
+        const V3d n = polygon.has_given_normals ? surface.normals[v] : V3d(9, 9, 9);
+        numbers.insert(numbers.end(), {p.x, p.y, p.z, n.x, n.y, n.z});
+      }
+    }
+    curved_before(index);
+  }
+};
+
+TEST(NffParts, AreTheSceneInOrder) {
+  for (const std::string& text : {k_odd_scene, spd_text("gears", 1, false), spd_text("balls", 1, false)}) {
+    const ParsedText plain = parse_plainly(text);
+    Flattened expected;
+    for (std::size_t i = 0; i < plain.surfaces(); ++i) expected.add(plain.surface(i));
+    for (const std::size_t part : {std::size_t{1}, std::size_t{1000}, std::size_t{1} << 30}) {
+      for (const int threads : {1, 2}) {
+        SCOPED_TRACE(fmt::format("parts of {} bytes, {} threads", part, threads));
+        NffOptions options = on_threads(threads, 500);
+        options.part_bytes = part;
+        Flattened parts;
+        std::size_t calls = 0;
+        options.on_part = [&](const Scene& so_far, const std::vector<std::shared_ptr<Surface>>& surfaces) {
+          EXPECT_TRUE(so_far.root.children.empty());
+          ++calls;
+          for (const auto& surface : surfaces) parts.add(*surface);
+        };
+        const ParsedText parsed = parse_only(text, options);
+        ASSERT_TRUE(parsed.scene);
+        EXPECT_EQ(parsed.surfaces(), 0u);
+        EXPECT_EQ(parsed.summary().surfaces, plain.summary().surfaces);
+        EXPECT_EQ(parsed.summary().polygons, plain.summary().polygons);
+        EXPECT_TRUE(parts.numbers == expected.numbers);
+        if (part > text.size() * 20) {
+          EXPECT_EQ(calls, 1u);
+        } else {
+          EXPECT_GT(calls, 1u);
+        }
+      }
+    }
+  }
+}
+
 TEST(NffThreads, TakeLongLinesCommentsAndWords) {
   std::string polygons = "f 1 1 1 1 0 0 0 1 ";
   for (int i = 0; i < 20'000; ++i) polygons += fmt::format("p 3 0 0 {} 1 0 0 0 1 0 ", i);
