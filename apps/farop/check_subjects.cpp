@@ -123,6 +123,12 @@ class LibraryMaker : public SubjectMaker {
     options.fresh_memory = memory;
     return std::make_unique<IsolatedSubject>(what_, options, background());
   }
+  std::unique_ptr<Subject> make_guarded() const override {
+    IsolationOptions options = options_;
+    options.guard_every_polygon = true;
+    return std::make_unique<IsolatedSubject>(what_, options, background());
+  }
+  bool can_guard() const override { return true; }
   Drawing as_given(const Drawing& drawing) const override {
     return triangles_ ? as_triangles(drawing) : drawing;
   }

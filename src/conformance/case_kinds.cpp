@@ -24,6 +24,10 @@ void run_case(Run& run, const Case& c, Subject& subject, Outcome& out, CaseResul
       return run_relation(run, c, subject, out, row);
     case CaseKind::repeat:
       return run_repeat(run, c, out, row);
+    case CaseKind::guard:
+      return run_guarded(run, c, out, row);
+    case CaseKind::file:
+      return run_file(run, c, subject, out, row);
     case CaseKind::growth:
       return run_growth(run, c, out, row);
     case CaseKind::survive:

@@ -25,6 +25,9 @@ void run_probe(Run& run, const Case& c, Subject& subject, Outcome& out, CaseResu
 void run_ties(Run& run, const Case& c, Subject& subject, Outcome& out, CaseResult& row);
 void run_relation(Run& run, const Case& c, Subject& subject, Outcome& out, CaseResult& row);
 void run_repeat(Run& run, const Case& c, Outcome& out, CaseResult& row);
+void run_guarded(Run& run, const Case& c, Outcome& out, CaseResult& row);
+/// Picture, order of neighbours, depths, a second frame and other memory: the first that is wrong.
+void run_file(Run& run, const Case& c, Subject& subject, Outcome& out, CaseResult& row);
 /// In turns with the reference; nothing else should run meanwhile.
 void run_growth(Run& run, const Case& c, Outcome& out, CaseResult& row);
 

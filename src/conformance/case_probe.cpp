@@ -66,7 +66,10 @@ std::vector<Probe> probes_of(const Run& run, const Drawing& given, const Expecta
   for (int y = 0; y < given.frame.y; ++y) {
     for (int x = 0; x < given.frame.x; ++x) {
       const int owner = expected.nearest(x, y);
-      if (owner < 0 || number++ % every != 0 || !probe_square(run.rule, given.frame, x, y)) continue;
+      // Where two polygons may be in front, two depths are right.
+      if (owner < 0 || expected.admissible(x, y).size() != 1 || number++ % every != 0 ||
+          !probe_square(run.rule, given.frame, x, y))
+        continue;
       const auto& plane = expected.polygons()[static_cast<std::size_t>(owner)].plane(Attribute::z);
       if (!plane) continue;
       probes.push_back({x, y, static_cast<std::uint32_t>(owner), plane->at(x, y), -1, given.frame.z});
@@ -181,13 +184,10 @@ class Measurement {
   std::optional<Framebuffer> delivered_;
 };
 
-DepthStatistics::Name name_of(const Case& c, const Drawing& given, DepthStatistics::Name name) {
+DepthStatistics::Name name_of(const Case& c, DepthStatistics::Name name) {
   if (c.name == "write" && name.verdict == "depth.wrong")
     return {"depth.stale", "a polygon that loses the depth test leaves its depth behind",
             "write depth and colour together, and only where the test is won"};
-  if (c.name == "zres" && given.frame.z > 65536 && name.verdict != "depth.drift")
-    return {"depth.overflow", fmt::format("depths are wrong at a depth resolution of {}", given.frame.z),
-            "a product exceeds 32 bits: use 64"};
   return name;
 }
 
@@ -233,9 +233,16 @@ void run_probe(Run& run, const Case& c, Subject& subject, Outcome& out, CaseResu
   const DepthStatistics::Name name =
       wrong->empty() ? DepthStatistics::Name{"depth.drift", "depths are off by more than rounding",
                                              "keep more fractional bits, or use double"}
-                     : name_of(c, given, name_depths(expected, p.measured));
+                     : name_of(c, name_depths(expected, p.measured));
   p.case_id = row.id, p.verdict = name.verdict, p.message = name.message, p.hint = name.hint;
   p.severity = wrong->empty() ? Severity::warning : Severity::error;
+  if (given.frame.z > 512 && c.name == "zres" && name.verdict != "depth.drift") {
+    p.else_verdict = std::move(p.verdict), p.else_message = std::move(p.message),
+    p.else_hint = std::move(p.hint);
+    p.verdict = "depth.overflow",
+    p.message = fmt::format("depths are wrong at a depth resolution of {} only", given.frame.z),
+    p.hint = "a product exceeds 32 bits: use 64";
+  }
   p.drawing = given, p.count = p.wrong.size();
   row.wrong += wrong->size();
   if (const auto picture = run.picture_of(c, subject, given, out)) p.got = *picture;

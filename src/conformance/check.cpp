@@ -68,10 +68,12 @@ class Checker {
       }
       return;
     }
+    run_family("regress");
     done_ += static_cast<std::size_t>(std::ranges::count(corpus_, "smoke", &Case::family));
     run_family("cov");
     if (stop_ || !name_coverage_cause(run_, all_, cause_, result_)) return;
-    for (const char* family : {"tile", "depth", "colour", "meta", "abi", "scene", "x"}) run_family(family);
+    for (const char* family : {"tile", "depth", "colour", "meta", "abi", "mem", "scene", "x"})
+      run_family(family);
     if (options_.repeat) run_family("det");
     measure_growth();
   }

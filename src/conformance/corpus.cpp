@@ -23,6 +23,7 @@ Color identification_color(std::size_t number) {
 const std::vector<FamilyFacts>& corpus_families() {
   static const std::vector<FamilyFacts> families = {
       {"smoke", "does it draw at all, the right way round, in the right colours"},
+      {"regress", "what others got wrong before"},
       {"cov", "which samples one polygon covers"},
       {"tile", "polygons that share edges: every sample once"},
       {"depth", "who is in front, and how deep it is"},
@@ -30,6 +31,7 @@ const std::vector<FamilyFacts>& corpus_families() {
       {"meta", "pictures that must equal each other"},
       {"abi", "several frames and sizes in one life"},
       {"det", "the same again, in other memory"},
+      {"mem", "beside the memory that is given"},
       {"scene", "whole scenes, as polygons and as triangles"},
       {"perf", "how the time grows"},
       {"x", "outside the contract: only crashes count"}};

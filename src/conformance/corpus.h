@@ -23,6 +23,8 @@ enum class CaseKind : std::uint8_t {
   relation,  ///< the second drawing, moved by `shift`, must equal the first within `window`
   state,     ///< drawn one after another in one life; equal drawings give equal pictures
   repeat,    ///< drawn in several processes and memories: bit-equal
+  guard,     ///< drawn twice with guards around everything the rasterizer gets
+  file,      ///< from a flat file: whatever can be judged
   growth,    ///< the same at several sizes: how the time grows
   survive    ///< outside the contract: must not crash or write outside
 };

@@ -119,6 +119,24 @@ void add_relations(std::vector<Case>& corpus, const CorpusOptions& options) {
   }
 }
 
+namespace {
+
+void add_guarded(std::vector<Case>& corpus, const CorpusOptions& options) {
+  CorpusBuilder b(corpus, options, "mem");
+  Random random("mem", 0, options.seed);
+  b.add("guard", CaseKind::guard,
+        "Nothing may be read or written beside the frame and the corners, nor later.")
+      .drawings = {some_scene(random, k_f64, 40),
+                   some_scene(random, {17, 9, 512, 256}, 8),
+                   identified(k_f64, {rectangle(0, 0, 63, 63), polygon_of({{63, 63}, {0, 63}, {63, 0}})}),
+                   identified({204, 8, 512, 256}, {polygon_of(double_comb(100))}),
+                   {k_f64, {}}};
+  b.seeded();
+  corpus.back().expect_nothing_ambiguous = false;
+}
+
+}  // namespace
+
 void add_state_and_repeats(std::vector<Case>& corpus, const CorpusOptions& options) {
   {
     CorpusBuilder b(corpus, options, "abi");
@@ -144,6 +162,7 @@ void add_state_and_repeats(std::vector<Case>& corpus, const CorpusOptions& optio
     b.add("vertices", CaseKind::state, "Polygons of 3, then 20,000, then 3 corners.").drawings = {three, many,
                                                                                                   three};
   }
+  add_guarded(corpus, options);
   CorpusBuilder b(corpus, options, "det");
   Random random("det", 0, options.seed);
   Case& c =

@@ -312,7 +312,8 @@ CoverageCause name_coverage(std::vector<Evidence>& evidence) {
     }
   }
   cause = best ? *best : cause_by_looks(evidence, required);
-  if (best && best_share < 1) cause.consistent = false;
+  cause.exact = best && best_share == 1;
+  if (!cause.exact) cause.consistent = false;
   cause.wrong = wrong;
   for (std::size_t i = 0; i < evidence.size(); ++i) {
     if (evidence[i].wrong > 0) cause.witnesses.push_back(i);

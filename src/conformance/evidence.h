@@ -24,6 +24,7 @@ struct CoverageCause {
   std::string verdict, detail, message, hint;
   std::uint64_t wrong = 0, explained = 0;
   std::vector<std::size_t> witnesses;  ///< wrong evidence, simplest first
+  bool exact = false;                  ///< it explains everything, and nothing else
   bool consistent = false;             ///< another consistent rule, under which all else can be judged
   ConsistentRule rule = ConsistentRule::lb;
 };

@@ -7,10 +7,19 @@
 #include <tuple>
 #include <utility>
 
+#include "conformance/case_kinds.h"
+#include "conformance/redrawing.h"
 #include "conformance/shrink.h"
 
 namespace farop::conformance {
 namespace {
+
+/// A drawing that shows a finding, and what came out.
+struct Shown {
+  Drawing drawing;
+  Framebuffer got;
+  std::vector<MeasuredDepth> measured;
+};
 
 std::string_view kind_name(Wrong kind) {
   switch (kind) {
@@ -67,7 +76,7 @@ Example example_of(const Run& run, const Drawing& drawing, const Framebuffer& go
 }
 
 /// Depths do not show in a picture: what was measured says where they are wrong.
-void add_measured(Example& e, const Problem& p, ConsistentRule rule) {
+void add_measured(Example& e, const Shown& p, ConsistentRule rule) {
   const Expectation expected(p.drawing, rule);
   e.wrong_pixels = p.measured.size();
   for (const MeasuredDepth& m : p.measured) {
@@ -131,6 +140,54 @@ bool shows(Run& run, const std::string& verdict, const Drawing& drawing, Subject
   return found;
 }
 
+/// The same for depths that were measured: by measuring them again, in the manner of the case.
+bool shows_measured(Run& run, const Finding& f, const Problem& p, const Drawing& drawing, Subject& subject,
+                    Shown& last) {
+  const std::size_t slash = p.case_id.find('/');
+  Case c;
+  c.family = p.case_id.substr(0, slash),
+  c.name = p.case_id.substr(slash + 1, p.case_id.find('#') - slash - 1);
+  c.kind = CaseKind::probe, c.drawings = {drawing};
+  Outcome out;
+  CaseResult row;
+  run_probe(run, c, subject, out, row);
+  for (Problem& again : out.problems) {
+    if (again.severity != f.severity || (again.verdict != f.verdict && again.else_verdict != f.verdict))
+      continue;
+    last = {std::move(again.drawing), std::move(again.got), std::move(again.measured)};
+    return true;
+  }
+  return false;
+}
+
+/// Whether a drawing shows a finding as one of its problems did; fills `last` then.
+bool shows_alike(Run& run, const Finding& f, const Problem& p, const Drawing& drawing, Subject& subject,
+                 Shown& last) {
+  if (!p.measured.empty()) return shows_measured(run, f, p, drawing, subject, last);
+  const Drawing given = run.maker.as_given(drawing);
+  if (f.verdict == "abi.state") {
+    Outcome out;
+    if (given.polygons.empty() || !leaves_state_behind(run, p.case_id, given, out)) return false;
+    last = {given, std::move(out.problems.front().got), {}};
+    return true;
+  }
+  if (f.verdict == "det.fill") {
+    if (given.polygons.empty() || !depends_on_memory(run, given)) return false;
+    const Delivered d = run.draw(*run.maker.make(0xA5), given);
+    last = {given, d.picture.value_or(Framebuffer{}), {}};
+    return true;
+  }
+  Framebuffer seen;
+  if (!shows(run, f.verdict, drawing, subject, seen)) return false;
+  last = {given, std::move(seen), {}};
+  return true;
+}
+
+bool can_shrink(const Finding& f) {
+  return f.severity != Severity::information && f.verdict != "det.rerun" && f.verdict != "det.threads" &&
+         f.verdict != "depth.ties" && !f.verdict.starts_with("meta.") && !f.verdict.starts_with("frame.");
+}
+
 }  // namespace
 
 void add_examples(Run& run, Finding& f, std::vector<const Problem*> members) {
@@ -143,30 +200,21 @@ void add_examples(Run& run, Finding& f, std::vector<const Problem*> members) {
                            [&](const Problem* a, const Problem* b) { return effort(a) < effort(b); });
   const bool coverage = f.verdict.starts_with("cov.") || f.verdict.starts_with("fill.");
   const std::unique_ptr<Subject> subject = run.maker.make(0);
+  const bool stopped = run.options.interrupted && run.options.interrupted();
   for (std::size_t i = 0; i < members.size() && i < 3; ++i) {
     const Problem& p = *members[i];
-    Drawing drawing = p.drawing;
-    Framebuffer got = p.got;
+    Shown last{p.drawing, p.got, p.measured};
     int renders = 0;
-    bool shrunk_it = false;
-    const bool can_shrink = run.options.shrink && i == 0 && f.severity != Severity::information &&
-                            !f.verdict.starts_with("det.") && !f.verdict.starts_with("meta.") &&
-                            f.verdict != "abi.state" && f.verdict != "depth.ties";
-    if (can_shrink && !f.verdict.starts_with("frame.")) {
-      Framebuffer last = got, seen;
-      const auto fails = [&](const Drawing& d) {
-        if (!shows(run, f.verdict, d, *subject, seen)) return false;
-        last = seen;
-        return true;
-      };
-      if (fails(drawing)) {
-        drawing = shrunk(drawing, fails, {}, renders);
-        got = last, shrunk_it = true;
-      }
+    bool alone = f.verdict.starts_with("frame."), small = false;
+    if (run.options.shrink && !stopped && i == 0 && can_shrink(f)) {
+      const auto fails = [&](const Drawing& d) { return shows_alike(run, f, p, d, *subject, last); };
+      alone = fails(p.drawing);
+      small = alone;
+      if (small) shrunk(p.drawing, fails, {}, renders);
     }
-    Example e = example_of(run, drawing, got, coverage ? ConsistentRule::lb : run.rule);
-    if (!shrunk_it && e.pixels.empty() && !e.got.rgb.empty()) add_measured(e, p, run.rule);
-    e.from_case = p.case_id, e.renders = renders, e.shrunk = shrunk_it;
+    Example e = example_of(run, last.drawing, last.got, coverage ? ConsistentRule::lb : run.rule);
+    if (e.pixels.empty() && !e.got.rgb.empty()) add_measured(e, last, run.rule);
+    e.from_case = p.case_id, e.renders = renders, e.shrunk = small, e.alone = alone;
     f.examples.push_back(std::move(e));
   }
 }

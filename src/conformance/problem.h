@@ -29,6 +29,8 @@ struct Problem {
   std::uint64_t count = 0;
   std::vector<std::string> shown_by;  ///< where it is not one case: all that show it
   std::uint64_t explained = 0;        ///< of `count`, where `shown_by` is filled
+  /// What it is where depths are wrong at small resolutions, too; empty: the same.
+  std::string else_verdict, else_message, else_hint;
   Framebuffer got;
   std::vector<std::string> trace;
   std::optional<std::uint32_t> polygon;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "conformance/case_kinds.h"
 #include "conformance/shapes.h"
 
 namespace farop::conformance {
@@ -40,6 +41,12 @@ bool leaves_state_behind(Run& run, const std::string& case_id, const Drawing& gi
     p.got = *second.picture, p.wrong = judge(expected, *second.picture, how).wrong, p.count = p.wrong.size();
   out.problems.push_back(std::move(p));
   return true;
+}
+
+bool depends_on_memory(Run& run, const Drawing& given) {
+  const std::unique_ptr<Subject> one = run.maker.make(0xA5), two = run.maker.make(0x3C);
+  const Delivered a = run.draw(*one, given), b = run.draw(*two, given);
+  return a.picture && b.picture && !same_picture(*a.picture, *b.picture);
 }
 
 bool carries_state(Run& run, const CoverageCause& cause, Outcome& all) {

@@ -15,6 +15,9 @@ Drawing alone(const Evidence& evidence);
 /// is noted in `out`.
 bool leaves_state_behind(Run& run, const std::string& case_id, const Drawing& given, Outcome& out);
 
+/// Pictures differ between lives whose fresh memory holds different bytes.
+bool depends_on_memory(Run& run, const Drawing& given);
+
 /// The same for the first few witnesses of wrong coverage; `all` holds the evidence and gets the problem.
 bool carries_state(Run& run, const CoverageCause& cause, Outcome& all);
 

@@ -61,6 +61,7 @@ struct Example {
   /// Polygon that is nearest at each pixel, -1 for none; parallel to the pixels of `expected`.
   std::vector<std::int32_t> owners;
   int renders = 0;      ///< drawings that shrinking took
+  bool alone = false;   ///< the drawing as a flat file shows the finding; else only its case does
   bool shrunk = false;  ///< false: shown as the corpus has it
 };
 constexpr std::size_t k_max_example_pixels = 256;

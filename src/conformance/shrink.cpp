@@ -20,6 +20,7 @@ class Shrinker {
       smaller |= move_to_origin();
       smaller |= halve();
       smaller |= simplify();
+      smaller |= shrink_frame();
     }
     return best_;
   }
@@ -27,8 +28,10 @@ class Shrinker {
 
  private:
   bool exhausted() const {
-    return renders_ >= budget_.renders ||
-           std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count() > budget_.seconds;
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begun_;
+    // On a busy machine a few renders may take that long: some are made in any case.
+    return renders_ >= budget_.renders || spent.count() > 4 * budget_.seconds ||
+           (spent.count() > budget_.seconds && renders_ >= budget_.renders / 8);
   }
   bool accept(const Drawing& candidate) {
     if (exhausted()) return false;
@@ -104,6 +107,17 @@ class Shrinker {
         v.x /= 2, v.y /= 2;
       }
     }
+    return changed && accept(next);
+  }
+
+  bool shrink_frame() {
+    Drawing next = best_;
+    int right = 0, top = 0;
+    for (const TestPolygon& polygon : best_.polygons) {
+      for (const ScreenVertex& v : polygon) right = std::max(right, v.x), top = std::max(top, v.y);
+    }
+    next.frame.x = std::min(next.frame.x, right + 3), next.frame.y = std::min(next.frame.y, top + 3);
+    const bool changed = next.frame.x != best_.frame.x || next.frame.y != best_.frame.y;
     return changed && accept(next);
   }
 

@@ -42,6 +42,9 @@ class SubjectMaker {
   virtual ~SubjectMaker() = default;
   /// `memory`: 0 as it comes; others fill fresh memory with that byte, where that can be done.
   virtual std::unique_ptr<Subject> make(std::uint8_t memory) const = 0;
+  /// With no-man's-land behind the corners of every polygon, which vanish when its call returns: slow.
+  virtual std::unique_ptr<Subject> make_guarded() const { return make(0); }
+  virtual bool can_guard() const { return false; }
   /// The drawing in the form that the rasterizer gets: as triangles where it wants those.
   virtual Drawing as_given(const Drawing& drawing) const { return drawing; }
   virtual Color background() const { return k_black; }

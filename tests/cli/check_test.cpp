@@ -16,7 +16,8 @@ TEST(CheckCommand, PassesTheShippedRasterizers) {
   for (const char* name : {"internal", "trapezoid", "scanline_fill", "watkins", "solids"}) {
     const Outcome run = shell(folder, std::string("farop check -q ") + name);
     EXPECT_EQ(run.status, 0) << run.out << run.err;
-    // A remark on how the time grows may stand before it.
+    // A remark may stand before it: the tiles of `internal` take all corners of a polygon each, so many corners
+    // side by side cost the square.
     EXPECT_NE(("\n" + run.out).find("\npass: "), std::string::npos) << run.out;
   }
 }
@@ -70,6 +71,36 @@ TEST(CheckCommand, RunsAFlatFileAsACase) {
             "128x128 --triangles; farop check internal --case pot.scr -q");
   EXPECT_EQ(run.status, 0) << run.out << run.err;
   EXPECT_NE(run.out.find("pass: 1 cases"), std::string::npos) << run.out;
+}
+
+TEST(CheckCommand, TakesTheRasterizerBeforeAndAfterItsCase) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(shell(folder, "farop check -q --case smoke/quad#0 trapezoid").status, 0);
+  EXPECT_EQ(shell(folder, "farop check -q trapezoid --case smoke/quad#0 --family smoke").status, 0);
+}
+
+TEST(CheckCommand, RunsAFolderOfEarlierCasesAfterSmoke) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(shell(folder,
+                  "mkdir old; printf '8 8 512 256\\n1\\n1\\n3 5 1\\n1 1 9 9 9 9\\n6 1 9 9 9 9\\n1 5 9 9 9 "
+                  "9\\n1\\n127\\n' "
+                  "> old/corner.scr")
+                .status,
+            0);
+  const Outcome run = shell(folder, "farop check -q trapezoid --regress old --family smoke --family regress");
+  EXPECT_EQ(run.status, 0) << run.out << run.err;
+  EXPECT_NE(run.out.find("regress      1 passed"), std::string::npos) << run.out;
+  EXPECT_EQ(shell(folder, "farop check -q trapezoid --regress nowhere").status, 1);
+}
+
+TEST(CheckCommand, ReportsWhatItHasWhenItIsStopped) {
+  const TemporaryFolder folder;
+  const Outcome run = shell(folder,
+                            "farop check -q trapezoid --thorough --jsonl lines --json r.json & p=$!; "
+                            "while ! [ -s lines ]; do sleep 0.1; done; kill -TERM $p; wait $p");
+  EXPECT_EQ(run.status, 4) << run.out << run.err;
+  EXPECT_NE(run.err.find("stopped by a signal"), std::string::npos) << run.err;
+  EXPECT_EQ(shell(folder, "grep -q '\"interrupted\"' r.json && grep -q 'not reached' r.json").status, 0);
 }
 
 TEST(CheckCommand, JudgesPicturesThatWereMadeElsewhere) {

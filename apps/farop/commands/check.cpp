@@ -21,6 +21,7 @@
 #include "core/output_file.h"
 #include "core/word_reader.h"
 #include "export/flat_reader.h"
+#include "stop_signals.h"
 #include "version.h"
 
 namespace farop::app {
@@ -32,13 +33,17 @@ using namespace conformance;
 struct CheckCommand {
   std::string rasterizer;
   RasterizerOptions options;
-  bool quick = false, thorough = false, list = false, beyond = false;
+  bool quick = false, thorough = false, list = false, beyond = false, shrink = true;
   std::uint64_t seed = 1;
   std::vector<std::string> families, cases;
+  std::string regress;
   std::optional<double> perf_limit;
   std::string accepted = "lb", precision = "default", examples, emit, images;
   CheckReports reports;
 };
+
+/// Id of a case that is a flat file.
+constexpr const char* k_file_case = "depth/file#0@0";
 
 /// The polygons of a flat file as a case.
 class FlatCase : public ScreenPolygonSink {
@@ -61,7 +66,7 @@ Case case_of_file(Session& session, const std::string& file) {
   Case c;
   c.family = "depth", c.name = "file", c.seed = 0;
   c.purpose = "The polygons of " + printable(file, 200) + ".";
-  c.kind = CaseKind::picture, c.expect_nothing_ambiguous = false;
+  c.kind = CaseKind::file, c.expect_nothing_ambiguous = false;
   c.drawings.push_back(std::move(flat.drawing));
   return c;
 }
@@ -71,12 +76,30 @@ bool wanted(const Case& c, const std::vector<std::string>& names) {
          std::ranges::any_of(names, [&](const std::string& n) { return n == c.family || n == c.group(); });
 }
 
+/// Flat files of a folder, by name: cases that are run right after smoke.
+void add_regressions(Session& session, const std::string& folder, std::vector<Case>& all) {
+  if (!fs::is_directory(folder))
+    throw Error(ExitStatus::input, fmt::format("--regress: {}: is no folder", printable(folder, 4096)),
+                "it takes a folder of flat files (.scr)");
+  std::vector<std::string> files;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() == ".scr") files.push_back(entry.path().string());
+  }
+  std::ranges::sort(files);
+  for (const std::string& file : files) {
+    Case c = case_of_file(session, file);
+    c.family = "regress", c.name = printable(fs::path(file).stem().string(), 100);
+    all.push_back(std::move(c));
+  }
+}
+
 std::vector<Case> chosen_cases(Session& session, const CheckCommand& command) {
   const CorpusOptions corpus_options{command.quick      ? Level::quick
                                      : command.thorough ? Level::thorough
                                                         : Level::normal,
                                      command.seed, command.beyond};
   std::vector<Case> all = make_corpus(corpus_options);
+  if (!command.regress.empty()) add_regressions(session, command.regress, all);
   for (const std::string& name : command.families) {
     if (std::ranges::any_of(all, [&](const Case& c) { return c.family == name || c.group() == name; }))
       continue;
@@ -134,8 +157,23 @@ std::string subject_words(const CheckCommand& command) {
   return text + (r.in_process ? " --in-process" : "");
 }
 
-std::string command_for(const CheckCommand& command, const std::string& file) {
-  return "farop check --case " + shell_word(file) + subject_words(command);
+/// How pictures are judged.
+std::string judging_words(const CheckCommand& command) {
+  std::string text;
+  if (command.accepted != "lb") text += " --accept-rule " + shell_word(command.accepted);
+  if (command.precision != "default") text += " --precision " + command.precision;
+  return text;
+}
+
+/// Repeats one example: from its flat file, or, where that shows nothing alone, as a case.
+std::string command_for(const CheckCommand& command, const conformance::Example& e) {
+  std::string text = "farop check --case " + shell_word(e.file.empty() || !e.alone ? e.from_case : e.file) +
+                     subject_words(command) + judging_words(command);
+  if (!e.file.empty() && e.alone) return text;
+  if (command.seed != CorpusOptions{}.seed) text += fmt::format(" --seed {}", command.seed);
+  if (command.thorough) text += " --thorough";
+  if (command.beyond) text += " --beyond-contract";
+  return text;
 }
 
 /// Repeats the whole run.
@@ -144,9 +182,9 @@ std::string repeat_command(const CheckCommand& command) {
   if (command.quick) text += " --quick";
   if (command.thorough) text += " --thorough";
   if (command.beyond) text += " --beyond-contract";
-  if (command.accepted != "lb") text += " --accept-rule " + shell_word(command.accepted);
-  if (command.precision != "default") text += " --precision " + command.precision;
+  text += judging_words(command);
   if (command.perf_limit) text += fmt::format(" --perf-limit {}", *command.perf_limit);
+  if (!command.regress.empty()) text += " --regress " + shell_word(command.regress);
   for (const std::string& name : command.families) text += " --family " + shell_word(name);
   for (const std::string& name : command.cases) text += " --case " + shell_word(name);
   return text;
@@ -172,12 +210,18 @@ CheckOptions check_options(const CheckCommand& command, const RunFacts& facts) {
   options.precision = command.precision == "nearest" ? Precision_ask::nearest
                       : command.precision == "exact" ? Precision_ask::exact
                                                      : Precision_ask::normal;
-  options.workers = facts.workers;
+  options.workers = facts.workers, options.shrink = command.shrink;
   return options;
 }
 
 /// The first example of each finding as a flat file.
 void write_examples(const CheckCommand& command, CheckResult& result) {
+  for (Finding& f : result.findings) {
+    for (conformance::Example& e : f.examples) {
+      const bool of_corpus = e.from_case != k_file_case && !e.from_case.starts_with("regress/");
+      if (of_corpus) e.command = command_for(command, e);
+    }
+  }
   if (command.examples.empty()) return;
   std::error_code error;
   fs::create_directories(command.examples, error);
@@ -190,7 +234,7 @@ void write_examples(const CheckCommand& command, CheckResult& result) {
     e.file =
         (fs::path(command.examples) / (n == 1 ? f.verdict + ".scr" : fmt::format("{}-{}.scr", f.verdict, n)))
             .string();
-    e.command = command_for(command, e.file);
+    e.command = command_for(command, e);
     OutputFile file(e.file);
     file.write(e.flat);
     file.commit();
@@ -265,11 +309,14 @@ void run(Session& session, CheckCommand command) {
     throw Error(ExitStatus::usage, "--perf-limit: there is nothing to compare the times with",
                 "it takes a library, and trapezoid beside it (farop plugins)");
   options.reference = reference.get(), options.perf_limit = command.perf_limit;
+  const StopSignals signals;
+  options.interrupted = [] { return StopSignals::came(); };
   options.progress = session.console.progress("checking");
   if (!command.reports.jsonl.empty()) options.finished = [&lines](const CaseResult& c) { lines.add(c); };
   CheckResult result = run_check(cases, *maker, options);
   session.console.end_progress();
-  if (command.emit.empty() && command.images.empty())
+  const bool stopped = StopSignals::came();
+  if (command.emit.empty() && command.images.empty() && !stopped)
     explain(session, command, chosen, cases, options, result);
   if (!command.emit.empty()) {
     session.console.summary("{}: the flat files of {} cases; draw each as .ppm beside it, then --images {}",
@@ -289,6 +336,10 @@ void run(Session& session, CheckCommand command) {
   tell(session, command.reports, conformance_report::translated(result, command.reports.words()));
   session.console.summary("{}: {} cases ({:.2f} s)", result.plugin.name, result.summary.cases,
                           result.run.time_seconds);
+  if (stopped) {
+    throw Error(ExitStatus::surroundings, "stopped by a signal: the report is about what was done before",
+                "cases that were not reached are marked as skipped");
+  }
   if (result.has_errors()) throw Error(ExitStatus::input, "");
 }
 
@@ -316,11 +367,15 @@ void add_check(CommandLine& line) {
   cases(command.add_option("--family", options->families, "only these: smoke, cov, tile/fan ...")
             ->type_name("NAME")
             ->expected(1)
-            ->take_all());
+            ->take_all()
+            ->allow_extra_args(false));
   cases(command.add_option("--case", options->cases, "only these: an id of --list, or a flat file")
             ->type_name("ID|FILE")
             ->expected(1)
-            ->take_all());
+            ->take_all()
+            ->allow_extra_args(false));
+  cases(command.add_option("--regress", options->regress, "also the flat files of this folder, after smoke")
+            ->type_name("DIR"));
   cases(command.add_option("--seed", options->seed, "of the random cases [1]")->type_name("N"));
   cases(command.add_flag("--list", options->list, "print the cases with their reasons, and stop"));
   cases(command.add_flag("--beyond-contract", options->beyond, "also what may break it: must not crash"));
@@ -337,6 +392,8 @@ void add_check(CommandLine& line) {
                           "times as long as `trapezoid` may it take; longer is an error")
               ->check(CLI::PositiveNumber)
               ->type_name("RATIO"));
+  judging(command.add_flag("--shrink,!--no-shrink", options->shrink,
+                           "look for the smallest drawing that fails [yes]"));
   judging(command.add_option("--examples", options->examples, "write the smallest drawings that fail there")
               ->type_name("DIR"));
   add_check_reports(command, options->reports);

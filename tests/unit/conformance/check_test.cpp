@@ -21,7 +21,8 @@ namespace {
 struct Faults {
   FillRule rule = FillRule::lb;
   enum class Test { nearer, none, farther, nearer_or_equal } test = Test::nearer;
-  bool first_color = false, flip_y = false, swap_channels = false, blank = false, far_plane = false;
+  bool first_color = false, flip_y = false, swap_channels = false, blank = false, far_plane = false,
+       flat_depth = false;
 };
 
 class Simulated : public Subject {
@@ -44,7 +45,8 @@ class Simulated : public Subject {
       for (int y = covered.window.y0; y < covered.window.y1; ++y) {
         for (int x = covered.window.x0; x < covered.window.x1; ++x) {
           if (covered.get(x, y) == 0) continue;
-          const double z = z_plane ? std::floor(z_plane->at(x, y).value() + 0.5) : polygon.front().z;
+          const double z = z_plane && !faults_.flat_depth ? std::floor(z_plane->at(x, y).value() + 0.5)
+                                                          : polygon.front().z;
           double& stored = depth[frame.index(x, y)];
           using Test = Faults::Test;
           const bool wins = faults_.test == Test::none || (faults_.test == Test::farther  ? z > stored
@@ -95,6 +97,16 @@ CheckResult check(const Faults& faults, Level level = Level::normal) {
   std::erase_if(corpus,
                 [](const Case& c) { return c.name == "size" || c.name == "big-n" || c.name == "vertices"; });
   return run_check(corpus, SimulatedMaker(faults), {});
+}
+
+CheckResult check_families(const Faults& faults, const std::vector<std::string>& families,
+                           const CheckOptions& options = {}) {
+  std::vector<Case> corpus = make_corpus({});
+  std::erase_if(corpus, [&](const Case& c) {
+    return std::ranges::find(families, c.family) == families.end() &&
+           std::ranges::find(families, c.group()) == families.end();
+  });
+  return run_check(corpus, SimulatedMaker(faults), options);
 }
 
 std::vector<std::string> errors(const CheckResult& result) {
@@ -182,6 +194,52 @@ TEST(Check, ShrinksExamplesToAFewPolygons) {
   EXPECT_EQ(example.polygons.size(), 2u);
   EXPECT_FALSE(example.flat.empty());
   EXPECT_GT(example.wrong_pixels, 0u);
+}
+
+TEST(Check, ShrinksDepthsThatNobodySees) {
+  Faults faults;
+  faults.flat_depth = true;
+  const CheckResult result = check_families(faults, {"depth/slope", "depth/zres"});
+  ASSERT_EQ(errors(result), Verdicts{"depth.wrong"}) << "no overflow where small depths are wrong as well";
+  const Example& example = result.findings.front().examples.front();
+  EXPECT_TRUE(example.shrunk && example.alone);
+  EXPECT_EQ(example.polygons.size(), 1u);
+  EXPECT_EQ(example.polygons.front().size(), 3u);
+  EXPECT_LT(example.frame.x, 64);
+  ASSERT_FALSE(example.pixels.empty());
+  EXPECT_EQ(example.pixels.front().kind, "depth");
+
+  Case file;
+  file.family = "depth", file.name = "file", file.kind = CaseKind::file;
+  file.drawings.push_back({example.frame, example.polygons});
+  EXPECT_EQ(errors(run_check({file}, SimulatedMaker(faults), {})), Verdicts{"depth.wrong"});
+  EXPECT_EQ(errors(run_check({file}, SimulatedMaker({}), {})), Verdicts{});
+}
+
+TEST(Check, AcceptsTheLectureRuleWhenAsked) {
+  Faults faults;
+  faults.rule = FillRule::lb_min;
+  EXPECT_EQ(errors(check_families(faults, {"smoke", "cov/tri4", "cov/quad4", "tile/fan"})).front(),
+            "fill.min-vertex lb+min");
+  CheckOptions options;
+  options.accepted_rule = "lb+min";
+  const CheckResult result =
+      check_families(faults, {"smoke", "cov/tri4", "cov/quad4", "tile/fan", "depth/two"}, options);
+  EXPECT_EQ(errors(result), Verdicts{});
+  EXPECT_EQ(result.summary.verdict, "pass.other-rule");
+}
+
+TEST(Check, StopsWhenAskedAndKeepsWhatWasFound) {
+  Faults faults;
+  faults.test = Faults::Test::none;
+  int asked = 0;
+  CheckOptions options;
+  options.interrupted = [&] { return ++asked > 3; };
+  const CheckResult result = check_families(faults, {"depth/two", "depth/order", "depth/cross"}, options);
+  EXPECT_EQ(result.summary.verdict, "interrupted");
+  EXPECT_GT(result.summary.failed, 0u);
+  EXPECT_GT(result.summary.skipped, 0u);
+  EXPECT_EQ(result.cases.back().reason, "not reached");
 }
 
 TEST(Shrinking, KeepsWhatFailsAndStopsInTime) {

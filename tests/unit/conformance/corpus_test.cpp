@@ -26,7 +26,7 @@ TEST(Corpus, HasTheNumbersOfTheLatticePolygons) {
 TEST(Corpus, IsTheSameOnEveryMachine) {
   // gcc and clang, debug and release: whoever changes a case on purpose changes these.
   EXPECT_EQ(corpus_hash(make_corpus({Level::quick, 1, false})), 4760536807432556346u);
-  EXPECT_EQ(corpus_hash(make_corpus({Level::normal, 1, false})), 12391355658632536013u);
+  EXPECT_EQ(corpus_hash(make_corpus({Level::normal, 1, false})), 9479600086904442832u);
 }
 
 TEST(Corpus, FollowsTheSeedWhereItIsRandom) {
