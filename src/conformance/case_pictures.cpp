@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "conformance/case_kinds.h"
+#include "conformance/focus.h"
 
 namespace farop::conformance {
 namespace {
@@ -13,8 +14,12 @@ std::string kind_of(const Expectation& expected, const WrongSample& s, const std
   switch (s.kind) {
     case Wrong::missing: {
       const ExactPolygon& p = expected.polygons()[static_cast<std::size_t>(s.expected_owner)];
-      const bool farthest = p.range(Attribute::z).first == expected.drawing().frame.z - 1;
-      return farthest ? "depth.far-plane" : "cov.missing";
+      // As deep as the farthest depth, in whole numbers.
+      const Rational farthest{expected.drawing().frame.z - 1, 1};
+      const auto& plane = p.plane(Attribute::z);
+      const Rational depth = plane ? plane->at(s.x, s.y) + p.tolerance(Attribute::z).unremarkable
+                                   : Rational{p.range(Attribute::z).second, 1};
+      return farthest <= depth ? "depth.far-plane" : "cov.missing";
     }
     case Wrong::extra:
       return "cov.extra";
@@ -85,7 +90,11 @@ void run_pictures(Run& run, const Case& c, Subject& subject, Outcome& out, CaseR
   for (const Drawing& drawing : c.drawings) {
     const Drawing given = run.maker.as_given(drawing);
     auto picture = run.picture_of(c, subject, given, out);
-    if (picture) judge_picture(run, c, given, *picture, out, row);
+    if (picture) {
+      const std::size_t before = out.problems.size();
+      judge_picture(run, c, given, *picture, out, row);
+      for (std::size_t i = before; i < out.problems.size(); ++i) focus(run, subject, out.problems[i]);
+    }
     pictures.push_back(std::move(picture));
   }
   if (c.kind != CaseKind::state) return;

@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "conformance/case_kinds.h"
+#include "conformance/decided.h"
 
 namespace farop::conformance {
 
@@ -15,9 +16,16 @@ void run_relation(Run& run, const Case& c, Subject& subject, Outcome& out, CaseR
   const auto one = run.picture_of(c, subject, a, out);
   const auto two = one ? run.picture_of(c, subject, b, out) : std::nullopt;
   if (!one || !two) return;
+  std::optional<Bitmap> alike;
+  if (c.decided_only)
+    alike = decided_alike(Expectation(a, run.rule), Expectation(b, run.rule), c.window, c.shift_x, c.shift_y);
   Problem p;
   for (int y = c.window.y0; y < c.window.y1; ++y) {
     for (int x = c.window.x0; x < c.window.x1; ++x) {
+      if (alike && alike->get(x, y) == 0) {
+        ++row.ambiguous;
+        continue;
+      }
       ++row.judged;
       const Color got = pixel_at(*two, x + c.shift_x, y + c.shift_y);
       // The frame's last column and row are cut off in the smaller frame under some rules.

@@ -50,6 +50,7 @@ std::vector<Case> make_corpus(const CorpusOptions& options) {
     add_state_and_repeats(corpus, options);
     add_growth(corpus, options);
   }
+  if (options.level != Level::quick) add_scenes(corpus, options);
   if (options.beyond_contract) add_beyond_contract(corpus, options);
   return corpus;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,20 +39,34 @@ struct Case {
   bool expect_nothing_ambiguous = true;
   bool free_interpolation = false;  ///< n-gons with values on no plane: scan-line or any triangulation
   std::vector<Drawing> drawings;
+  /// Makes `drawings` when their turn comes, where they are large: until then there are none.
+  std::function<std::vector<Drawing>()> deliver;
   std::vector<double> sizes;  ///< of growth: what each drawing has of `unit`
   std::string unit;           ///< "corners"
   double growth_limit = 0;    ///< largest exponent of the growth that is nothing special
-  Window window;              ///< of a relation
+  /// Of a relation: only samples are compared where either picture is known to show one polygon.
+  bool decided_only = false;
+  Window window;  ///< of a relation
   int shift_x = 0, shift_y = 0;
 
   std::string id() const;
   std::string group() const { return family + "/" + name; }
 };
 
+/// A picture of a scene, made by whoever knows scenes: the polygons that its geometry stage hands over.
+struct SceneSource {
+  std::string name;             ///< "gears"
+  std::uint64_t index = 0;      ///< which picture of that scene; the same at every level
+  std::string purpose;          ///< one sentence
+  bool with_relations = false;  ///< family `meta` has its relations, too
+  std::function<Drawing()> draw;
+};
+
 struct CorpusOptions {
   Level level = Level::normal;
   std::uint64_t seed = 1;
   bool beyond_contract = false;
+  std::vector<SceneSource> scenes = {};  ///< what the level has
 };
 
 /// Everything, in the order in which it is run: smoke, cov, tile, depth, colour, meta, abi, det, perf (and x
@@ -64,7 +79,7 @@ struct FamilyFacts {
 };
 const std::vector<FamilyFacts>& corpus_families();
 
-/// FNV-1a over ids and all numbers of all drawings.
+/// FNV-1a over ids and all numbers of all drawings that are there already.
 std::uint64_t corpus_hash(const std::vector<Case>& corpus);
 
 /// Colour by which polygon `number` is told from all others (16384 of them) and from both backgrounds.

@@ -94,6 +94,8 @@ void add_color(std::vector<Case>& corpus, const CorpusOptions& options);
 void add_relations(std::vector<Case>& corpus, const CorpusOptions& options);
 void add_state_and_repeats(std::vector<Case>& corpus, const CorpusOptions& options);
 void add_growth(std::vector<Case>& corpus, const CorpusOptions& options);
+/// Families `scene`, and the relations of scenes in `meta`.
+void add_scenes(std::vector<Case>& corpus, const CorpusOptions& options);
 void add_beyond_contract(std::vector<Case>& corpus, const CorpusOptions& options);
 
 }  // namespace farop::conformance

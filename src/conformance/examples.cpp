@@ -14,6 +14,8 @@
 namespace farop::conformance {
 namespace {
 
+constexpr std::size_t k_max_example_polygons = 25'000;
+
 /// A drawing that shows a finding, and what came out.
 struct Shown {
   Drawing drawing;
@@ -37,7 +39,10 @@ std::string_view kind_name(Wrong kind) {
 
 Example example_of(const Run& run, const Drawing& drawing, const Framebuffer& got, ConsistentRule rule) {
   Example e;
-  e.frame = drawing.frame, e.background = run.background(), e.polygons = drawing.polygons;
+  e.frame = drawing.frame, e.background = run.background();
+  // A whole scene is too much for a report: the case shows it again.
+  if (drawing.polygons.size() > k_max_example_polygons) return e;
+  e.polygons = drawing.polygons;
   e.flat = flat_text(drawing);
   const Expectation expected(drawing, rule);
   e.expected = ideal_picture(expected, run.background());

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "support/shell.h"
@@ -24,8 +25,13 @@ TEST(CheckCommand, PassesTheShippedRasterizers) {
 
 TEST(CheckCommand, PassesARightRasterizerThoroughlyWithAnotherSeed) {
   const TemporaryFolder folder;
-  const Outcome run = shell(folder, "farop check -q trapezoid --thorough --seed 7");
+  const Outcome run =
+      shell(folder,
+            "farop check -q trapezoid --thorough --seed 7 --family smoke --family cov --family tile "
+            "--family depth --family colour --family meta --family abi --family det "
+            "--family scene/gears --family scene/shapes");
   EXPECT_EQ(run.status, 0) << run.out << run.err;
+  EXPECT_NE(run.out.find("scene        8 passed"), std::string::npos) << run.out;
 }
 
 TEST(CheckCommand, ChecksProgramsAndLibrariesInThisProcess) {
@@ -51,6 +57,36 @@ TEST(CheckCommand, ListsItsCasesWithReasons) {
   const Outcome run = shell(folder, "farop check --list --family smoke");
   EXPECT_EQ(run.status, 0);
   EXPECT_NE(run.out.find("smoke/lecture#0@1"), std::string::npos) << run.out;
+}
+
+TEST(CheckCommand, ListsScenesWithTheSameNamesAtEveryLevel) {
+  const TemporaryFolder folder;
+  const std::string some = shell(folder, "farop check --list --family scene").out;
+  const std::string all = shell(folder, "farop check --list --thorough --family scene").out;
+  EXPECT_NE(some.find("scene/teapot#1@1"), std::string::npos) << some;
+  EXPECT_EQ(some.find("scene/teapot#2@1"), std::string::npos) << some;
+  EXPECT_NE(all.find("scene/teapot#5@1"), std::string::npos) << all;
+  EXPECT_NE(all.find("scene/walk#0@1"), std::string::npos) << all;
+  for (std::size_t at = 0; at < some.size();) {
+    const std::size_t end = some.find('\n', at);
+    EXPECT_NE(all.find(some.substr(at, end - at)), std::string::npos) << some.substr(at, end - at);
+    at = end + 1;
+  }
+}
+
+TEST(CheckCommand, LeavesLessThanHalfAPercentOfATriangulatedSceneOpen) {
+  const TemporaryFolder folder;
+  const Outcome run = shell(folder, "farop check -q internal --family scene --json result.json");
+  EXPECT_EQ(run.status, 0) << run.out << run.err;
+  std::ifstream file(folder.path() / "result.json");
+  const auto json = nlohmann::json::parse(file);
+  int seen = 0;
+  for (const auto& c : json["cases"]) {
+    if (c["id"].get<std::string>().find("#1@") == std::string::npos) continue;
+    ++seen;
+    EXPECT_LT(c["ambiguous"].get<double>(), 0.005 * c["judged"].get<double>()) << c["id"];
+  }
+  EXPECT_EQ(seen, 16);
 }
 
 TEST(CheckCommand, RefusesWhatItDoesNotKnow) {

@@ -15,11 +15,13 @@
 
 #include "check_causes.h"
 #include "check_reports.h"
+#include "check_scenes.h"
 #include "check_subjects.h"
 #include "command_line.h"
 #include "conformance_report/terminal_report.h"
 #include "core/output_file.h"
 #include "core/word_reader.h"
+#include "drawing_recorder.h"
 #include "export/flat_reader.h"
 #include "stop_signals.h"
 #include "version.h"
@@ -45,22 +47,8 @@ struct CheckCommand {
 /// Id of a case that is a flat file.
 constexpr const char* k_file_case = "depth/file#0@0";
 
-/// The polygons of a flat file as a case.
-class FlatCase : public ScreenPolygonSink {
- public:
-  Drawing drawing;
-  void begin_frame(const ScreenFrame& frame) override { drawing.frame = frame.resolution; }
-  void polygons(const ScreenPolygonBatch& batch) override {
-    for (const ScreenPolygonRecord& record : batch.polygons) {
-      const auto corners = batch.corners(record);
-      drawing.polygons.emplace_back(corners.begin(), corners.end());
-    }
-  }
-  void end_frame() override {}
-};
-
 Case case_of_file(Session& session, const std::string& file) {
-  FlatCase flat;
+  DrawingRecorder flat;
   WordReader reader(file);
   if (!read_flat(reader, session.console, flat, {})) throw Error(ExitStatus::input, "");
   Case c;
@@ -94,10 +82,8 @@ void add_regressions(Session& session, const std::string& folder, std::vector<Ca
 }
 
 std::vector<Case> chosen_cases(Session& session, const CheckCommand& command) {
-  const CorpusOptions corpus_options{command.quick      ? Level::quick
-                                     : command.thorough ? Level::thorough
-                                                        : Level::normal,
-                                     command.seed, command.beyond};
+  const Level level = command.quick ? Level::quick : command.thorough ? Level::thorough : Level::normal;
+  const CorpusOptions corpus_options{level, command.seed, command.beyond, check_scenes(level)};
   std::vector<Case> all = make_corpus(corpus_options);
   if (!command.regress.empty()) add_regressions(session, command.regress, all);
   for (const std::string& name : command.families) {
