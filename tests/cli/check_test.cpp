@@ -17,8 +17,8 @@ TEST(CheckCommand, PassesTheShippedRasterizers) {
   for (const char* name : {"internal", "trapezoid", "scanline_fill", "watkins", "solids"}) {
     const Outcome run = shell(folder, std::string("farop check -q ") + name);
     EXPECT_EQ(run.status, 0) << run.out << run.err;
-    // A remark may stand before it: the tiles of `internal` take all corners of a polygon each, so many corners
-    // side by side cost the square.
+    // A remark may stand before it: the tiles of `internal` take all corners of a polygon each, so many
+    // corners side by side cost the square.
     EXPECT_NE(("\n" + run.out).find("\npass: "), std::string::npos) << run.out;
   }
 }

@@ -66,9 +66,7 @@ void add_export(CommandLine& line) {
       ->check(CLI::IsMember({"flat", "gouraud"}))
       ->type_name("flat|gouraud")
       ->group("Drawing");
-  command
-      .add_option("--stream", options->stream,
-                  "read NFF files again instead of keeping them: 40 MB do [auto: from 64 MB of input on]")
+  command.add_option("--stream", options->stream, "read files again, keep none [auto: from 64 MB on]")
       ->check(CLI::IsMember({"auto", "on", "off"}))
       ->type_name("auto|on|off")
       ->group("Input");
