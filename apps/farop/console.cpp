@@ -45,11 +45,12 @@ std::string Console::colored(std::string_view text, const char* code) const {
 }
 
 void Console::report(Diagnostic diagnostic) {
-  if (strict_ && diagnostic.severity == Severity::warning) diagnostic.severity = Severity::error;
-  const bool error = diagnostic.severity == Severity::error;
+  if (strict_ && diagnostic.severity == farop::Severity::warning)
+    diagnostic.severity = farop::Severity::error;
+  const bool error = diagnostic.severity == farop::Severity::error;
   if (error) ++errors_;
-  if (diagnostic.severity == Severity::warning) ++warnings_;
-  if (diagnostic.severity == Severity::note && quiet_) return;
+  if (diagnostic.severity == farop::Severity::warning) ++warnings_;
+  if (diagnostic.severity == farop::Severity::note && quiet_) return;
   std::string text = to_text(diagnostic);
   for (const auto& [word, code] :
        {std::pair{": error: ", k_bold_red}, std::pair{": warning: ", k_bold_yellow}}) {

@@ -12,7 +12,7 @@ namespace {
 using namespace conformance;
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t k_most_corners = 20000, k_text_limit = 4096;
+constexpr std::size_t k_most_corners = 20000, k_example_text_limit = 4096;
 
 Json measured_depth(const WrongPixel& p) {
   const auto z = std::ranges::find(p.values, "z", &ExactValue::name);
@@ -25,7 +25,7 @@ Json viewer_data(const Example& e) {
   Json json{{"w", e.frame.x},
             {"h", e.frame.y},
             {"c", e.frame.color},
-            {"case", printable(e.from_case, k_text_limit)}};
+            {"case", printable(e.from_case, k_example_text_limit)}};
   Json& polygons = json["polygons"] = Json::array();
   std::size_t corners = 0;
   for (const TestPolygon& polygon : e.polygons) {

@@ -18,7 +18,7 @@ using namespace conformance;
 
 // The page must stay small enough to be mailed.
 constexpr std::size_t k_page_budget = 6u << 20u;
-constexpr std::size_t k_text_limit = 4096;
+constexpr std::size_t k_finding_text_limit = 4096;
 constexpr std::size_t k_tables_size = 6000;  // about what the tables of one finding take
 constexpr std::size_t k_listed_pixels = 12, k_listed_findings = 2000, k_listed_sums = 24;
 
@@ -70,15 +70,15 @@ mstch::array FindingNodes::all() {
 mstch::map FindingNodes::node(const Finding& f, std::size_t index) {
   mstch::array trace;
   for (const std::string& line : f.trace)
-    trace.push_back(mstch::map{{"text", printable_lines(line, k_text_limit)}});
+    trace.push_back(mstch::map{{"text", printable_lines(line, k_finding_text_limit)}});
   const std::string first_case = f.case_ids.empty() ? std::string() : f.case_ids.front();
   const std::string purpose = purpose_of(first_case);
   mstch::map node{{"index", std::to_string(index)},
                   {"verdict", printable(f.verdict, 200)},
                   {"detail", printable(f.detail, 200)},
                   {"letter", std::string(1, severity_letter(f.severity))},
-                  {"message", printable_lines(f.message, k_text_limit)},
-                  {"hint", printable_lines(f.hint, k_text_limit)},
+                  {"message", printable_lines(f.message, k_finding_text_limit)},
+                  {"hint", printable_lines(f.hint, k_finding_text_limit)},
                   {"has_hint", !f.hint.empty()},
                   {"count", grouped(f.count)},
                   {"shown_by", grouped(f.case_ids.size())},
@@ -112,14 +112,14 @@ void FindingNodes::add_examples(mstch::map& node, const Finding& f) {
   if (command.empty() && !e.from_case.empty() && !result_.run.command.empty() &&
       result_.run.command.find(" --case ") == std::string::npos)
     command = result_.run.command + " --case '" + e.from_case + "'";
-  node["command"] = printable(command, k_text_limit);
+  node["command"] = printable(command, k_finding_text_limit);
   node["has_command"] = !command.empty();
   if (used_ > k_page_budget) {
     ++left_out_;
     return;
   }
-  used_ += std::min(e.flat.size(), k_text_limit) + k_tables_size;
-  node["flat"] = printable_lines(e.flat, k_text_limit);
+  used_ += std::min(e.flat.size(), k_finding_text_limit) + k_tables_size;
+  node["flat"] = printable_lines(e.flat, k_finding_text_limit);
   node["has_flat"] = !e.flat.empty();
   node["pixels"] = pixel_nodes(e);
   node["has_pixels"] = !e.pixels.empty();

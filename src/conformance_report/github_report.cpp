@@ -14,12 +14,12 @@ namespace {
 using namespace conformance;
 
 constexpr std::size_t k_annotations = 10;  // of a kind and step: more are not shown
-constexpr std::size_t k_text_limit = 2000, k_listed_findings = 200;
+constexpr std::size_t k_annotation_limit = 2000, k_summary_findings = 200;
 
 /// Of a message; properties must not contain ':' and ',' either.
 std::string escaped(std::string_view text, bool property) {
   std::string out;
-  for (const char c : printable(text, k_text_limit)) {
+  for (const char c : printable(text, k_annotation_limit)) {
     const bool bad = c == '%' || (property && (c == ':' || c == ','));
     out += bad ? fmt::format("%{:02X}", static_cast<unsigned>(c)) : std::string(1, c);
   }
@@ -29,7 +29,7 @@ std::string escaped(std::string_view text, bool property) {
 /// Text in a table of Markdown: nothing of it is markup.
 std::string plain(std::string_view text) {
   std::string out;
-  for (const char c : printable(text, k_text_limit)) {
+  for (const char c : printable(text, k_annotation_limit)) {
     if (c == '&')
       out += "&amp;";
     else if (c == '<')
@@ -94,7 +94,7 @@ std::string to_github_summary(const CheckResult& r, const Catalogue& words) {
     out += fmt::format("\n| | {} | {} |\n|---|---|---|\n", words("verdict"), words("What is wrong, and why"));
     std::size_t listed = 0;
     for (const Finding& f : r.findings) {
-      if (++listed > k_listed_findings) break;
+      if (++listed > k_summary_findings) break;
       out += fmt::format("| {} | {} | {}{} |\n", severity_letter(f.severity), plain(title_of(f)),
                          plain(f.message), f.hint.empty() ? "" : "<br>" + plain(f.hint));
     }

@@ -18,7 +18,7 @@ namespace {
 using namespace conformance;
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t k_text_limit = 4096, k_output_limit = 16384, k_listed_cases = 2000;
+constexpr std::size_t k_page_text_limit = 4096, k_output_limit = 16384, k_listed_cases = 2000;
 
 /// The template in the language of the page: [[sentence]] becomes its translation.
 std::string localized_template(const Catalogue& words) {
@@ -80,10 +80,10 @@ class Page {
     const RunFacts& run = result_.run;
     const RuleFingerprint& rule = result_.rule_fingerprint;
     return {{"lang", std::string(words_.code())},
-            {"name", printable(result_.plugin.name, k_text_limit)},
-            {"about", printable(result_.plugin.summary, k_text_limit)},
+            {"name", printable(result_.plugin.name, k_page_text_limit)},
+            {"about", printable(result_.plugin.summary, k_page_text_limit)},
             {"passed", !result_.has_errors()},
-            {"verdict", words_(printable(s.verdict, k_text_limit))},
+            {"verdict", words_(printable(s.verdict, k_page_text_limit))},
             {"score", fmt::format("{:.1f}", s.score)},
             {"cases", grouped(s.cases)},
             {"failed", grouped(s.failed)},
@@ -98,7 +98,7 @@ class Page {
             {"closest", rule.closest},
             {"has_closest", !rule.closest.empty()},
             {"explains", fmt::format("{:.1f}", 100 * rule.closest_explains)},
-            {"command", printable(run.command, k_text_limit)},
+            {"command", printable(run.command, k_page_text_limit)},
             {"output", printable_lines(run.output + run.error_output, k_output_limit)},
             {"has_output", !(run.output + run.error_output).empty()},
             {"style", std::string(k_web_style)},
@@ -142,7 +142,7 @@ class Page {
                                 {"bad", f->failed > 0},
                                 {"skipped", grouped(f->skipped)},
                                 {"seconds", fmt::format("{:.2f}", f->milliseconds / 1000)},
-                                {"reason", printable(f->skip_reason, k_text_limit)}});
+                                {"reason", printable(f->skip_reason, k_page_text_limit)}});
     }
     return rows;
   }
@@ -191,7 +191,7 @@ class Page {
     mstch::array rows;
     const auto add = [&](const char* name, const std::string& value) {
       if (!value.empty())
-        rows.push_back(mstch::map{{"name", words_(name)}, {"value", printable(value, k_text_limit)}});
+        rows.push_back(mstch::map{{"name", words_(name)}, {"value", printable(value, k_page_text_limit)}});
     };
     std::string walls;
     for (const std::string& wall : run.isolation) walls += (walls.empty() ? "" : ", ") + wall;
@@ -212,7 +212,7 @@ class Page {
   mstch::array notes(std::size_t left_out) const {
     mstch::array list;
     for (const std::string& note : result_.notes)
-      list.push_back(mstch::map{{"text", printable_lines(note, k_text_limit)}});
+      list.push_back(mstch::map{{"text", printable_lines(note, k_page_text_limit)}});
     if (left_out > 0) {
       list.push_back(
           mstch::map{{"text", words_.format("{} pictures are left out to keep this page small.", left_out)}});

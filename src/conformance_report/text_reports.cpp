@@ -15,7 +15,7 @@ namespace {
 using namespace conformance;
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t k_text_limit = 16384;
+constexpr std::size_t k_cell_limit = 16384;
 
 /// Printable, line by line.
 std::string clean(std::string_view text) {
@@ -23,7 +23,7 @@ std::string clean(std::string_view text) {
   for (std::size_t at = 0; at <= text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
     if (at > 0) out += '\n';
-    out += printable(text.substr(at, end - at), k_text_limit);
+    out += printable(text.substr(at, end - at), k_cell_limit);
     at = end + 1;
   }
   return out;
@@ -322,7 +322,7 @@ std::string to_tap(const CheckResult& r) {
     std::string id = clean(c.id);
     for (std::size_t at = 0; (at = id.find('#', at)) != std::string::npos; at += 2) id.insert(at, "\\");
     out += fmt::format("{} {} - {}", c.status == CaseStatus::failed ? "not ok" : "ok", ++number, id);
-    if (c.status == CaseStatus::skipped) out += " # SKIP " + printable(c.reason, k_text_limit);
+    if (c.status == CaseStatus::skipped) out += " # SKIP " + printable(c.reason, k_cell_limit);
     out += '\n';
     if (c.status != CaseStatus::failed) continue;
     // A JSON string is a YAML string.

@@ -21,7 +21,7 @@
 namespace farop {
 namespace {
 
-constexpr std::size_t k_block = std::size_t{1} << 18;
+constexpr std::size_t k_flat_block = std::size_t{1} << 18;
 /// Six integers of at most 20 characters, each with the character behind it, and what append() writes beyond.
 constexpr std::size_t k_longest_line = 6 * (20 + 1) + 8;
 
@@ -99,7 +99,7 @@ std::FILE* open_temporary() {
 
 }  // namespace
 
-FlatWriter::FlatWriter(OutputFile& output) : output_(output), block_(std::make_unique<char[]>(k_block)) {
+FlatWriter::FlatWriter(OutputFile& output) : output_(output), block_(std::make_unique<char[]>(k_flat_block)) {
   if (!output_.seekable()) collected_.reset(open_temporary());
 }
 
@@ -154,7 +154,7 @@ void FlatWriter::put_line(Integers... values) {
 }
 
 void FlatWriter::make_room_for_line() {
-  if (k_block - used_ < k_longest_line) flush();
+  if (k_flat_block - used_ < k_longest_line) flush();
 }
 
 void FlatWriter::flush() {
@@ -183,7 +183,7 @@ void FlatWriter::fill_in_count() {
 void FlatWriter::copy_collected() {
   // Seeking writes out what the stream still holds.
   if (::fseeko(collected_.get(), 0, SEEK_SET) != 0) throw_temporary_failure(temporary_folder(), errno);
-  while (const std::size_t got = std::fread(block_.get(), 1, k_block, collected_.get())) {
+  while (const std::size_t got = std::fread(block_.get(), 1, k_flat_block, collected_.get())) {
     output_.write({block_.get(), got});
   }
   if (std::ferror(collected_.get())) throw_temporary_failure(temporary_folder(), errno);

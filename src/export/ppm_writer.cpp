@@ -11,7 +11,7 @@
 namespace farop {
 namespace {
 
-constexpr std::size_t k_block = std::size_t{1} << 20;
+constexpr std::size_t k_ppm_block = std::size_t{1} << 20;
 
 bool is_special_file(const std::string& path) {
   std::error_code ec;
@@ -37,7 +37,7 @@ void write_ppm(const std::string& path, const Framebuffer& picture) {
   for (int y = picture.height - 1; y >= 0; --y) {
     block.append(reinterpret_cast<const char*>(&picture.rgb[3 * picture.pixel(0, y)]),
                  3 * static_cast<std::size_t>(picture.width));
-    if (block.size() < k_block && y > 0) continue;
+    if (block.size() < k_ppm_block && y > 0) continue;
     file.write(block);
     block.clear();
   }

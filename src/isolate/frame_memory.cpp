@@ -14,14 +14,9 @@
 namespace farop::isolate {
 namespace {
 
-constexpr std::uint64_t k_page = 4096;
 constexpr std::uint64_t k_block = std::uint64_t{1} << 20;
 /// Frames up to this size are kept as they were sent: the same again is for free then.
 constexpr std::uint64_t k_max_kept = std::uint64_t{32} << 20;
-
-std::uint64_t whole_pages(std::uint64_t bytes) {
-  return (bytes + k_page - 1) / k_page * k_page;
-}
 
 /// Word number `index` of a stream: the finisher of splitmix64 (Steele, Lea, Flood 2014). Unguessable in
 /// passing, and any part of the stream can be had alone.

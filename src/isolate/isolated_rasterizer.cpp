@@ -44,13 +44,8 @@ namespace {
 /// Polygons go over as soon as there is this much of them: little at first, so that the runner has something
 /// to do, then more and more, as every chunk costs some system calls.
 constexpr std::size_t k_first_batch_bytes = std::size_t{16} << 10, k_batch_bytes = std::size_t{256} << 10;
-constexpr std::uint64_t k_page = 4096;
 constexpr std::ptrdiff_t k_max_own_memories = 2;
 constexpr std::int64_t k_least_leak = 128 << 10;  ///< bytes per frame that are worth a word
-
-std::uint64_t whole_pages(std::uint64_t bytes) {
-  return (bytes + k_page - 1) / k_page * k_page;
-}
 
 std::string file_name(const std::string& path) {
   return printable(std::filesystem::path(path).filename().string(), 80);

@@ -9,6 +9,12 @@
 
 namespace farop::isolate {
 
+/// `bytes` rounded up to pages.
+constexpr std::uint64_t whole_pages(std::uint64_t bytes) {
+  constexpr std::uint64_t k_page = 4096;
+  return (bytes + k_page - 1) / k_page * k_page;
+}
+
 /// A file descriptor that closes itself.
 class OwnedDescriptor {
  public:

@@ -17,7 +17,7 @@ constexpr std::ptrdiff_t k_longest_count = 9;
 constexpr std::size_t k_fill_numbers = 8;
 
 // CR only in front of LF, so that LFs alone count the lines.
-constexpr bool is_space(char c) {
+constexpr bool is_plain_space(char c) {
   return c == ' ' || c == '\n' || c == '\t' || c == '\r';
 }
 
@@ -30,14 +30,14 @@ const char* next_word(const char* at, const char* readable) {
   for (;; ++at) {
     if (readable - at < 2) return nullptr;
     if (static_cast<unsigned char>(*at) > ' ') return at;
-    if (!is_space(*at) || (*at == '\r' && at[1] != '\n')) return nullptr;
+    if (!is_plain_space(*at) || (*at == '\r' && at[1] != '\n')) return nullptr;
   }
 }
 
 /// A number of any form; what stands behind it, or nullptr.
 [[gnu::noinline]] const char* read_any_number(const char* at, const char* readable, double& value) {
   const char* const limit = at + std::min(k_longest_number, readable - at);
-  const char* const behind = std::find_if(at, limit, is_space);
+  const char* const behind = std::find_if(at, limit, is_plain_space);
   if (behind == limit) return nullptr;
   const std::string_view word(at, static_cast<std::size_t>(behind - at));
   return parse_number(word, value) == NumberSyntax::number ? behind : nullptr;
@@ -104,7 +104,7 @@ const char* PlainRunReader::read_polygon(const char* at, const PlainText& text, 
   const bool patch = at[1] == 'p';
   const std::size_t stride = patch ? 6 : 3;
   const char* digit = patch ? at + 2 : at + 1;
-  if (!is_space(*digit)) return nullptr;
+  if (!is_plain_space(*digit)) return nullptr;
   digit = next_word(digit, text.readable);
   if (digit == nullptr || text.readable - digit < k_short_number_bytes) return nullptr;
   std::size_t corners = 0;
@@ -112,7 +112,7 @@ const char* PlainRunReader::read_polygon(const char* at, const PlainText& text, 
     if (digit == limit) return nullptr;
     corners = 10 * corners + static_cast<std::size_t>(*digit - '0');
   }
-  if (!is_space(*digit) || corners < 3 || corners * stride > k_most_numbers) return nullptr;
+  if (!is_plain_space(*digit) || corners < 3 || corners * stride > k_most_numbers) return nullptr;
   if (patch != patches_ || used_ + corners * stride > k_most_numbers) hand_over(builder);
   patches_ = patch;
   const char* const behind = read_numbers(next_word(digit, text.readable), text, corners * stride);
@@ -132,7 +132,7 @@ bool PlainRunReader::last_is_flat(std::size_t corners, std::size_t stride) const
 }
 
 const char* PlainRunReader::read_fill(const char* at, const PlainText& text) {
-  if (!is_space(at[1])) return nullptr;
+  if (!is_plain_space(at[1])) return nullptr;
   const char* const behind = read_numbers(next_word(at + 1, text.readable), text, k_fill_numbers);
   if (behind == nullptr) return nullptr;
   const double shine = numbers_[5], transmittance = numbers_[6];

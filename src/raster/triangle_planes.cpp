@@ -15,7 +15,7 @@ std::uint64_t nearest_integer(double v) {
   return std::bit_cast<std::uint64_t>(v + k_to_integer) - std::bit_cast<std::uint64_t>(k_to_integer);
 }
 
-auto key(const ScreenVertex& v) {
+auto corner_key(const ScreenVertex& v) {
   return std::tie(v.y, v.x, v.z, v.r, v.g, v.b);
 }
 
@@ -33,7 +33,7 @@ std::optional<std::uint32_t> fan_center(std::span<const ScreenVertex> corners) {
   for (std::uint32_t i = 0; i < n; ++i) {
     const ScreenVertex& v = corners[i];
     if (v.x < -k_limit || v.x > k_limit || v.y < -k_limit || v.y > k_limit) return std::nullopt;
-    if (key(v) < key(corners[center])) center = i;
+    if (corner_key(v) < corner_key(corners[center])) center = i;
   }
   if (n == 3) return center;
   const ScreenVertex& middle = corners[center];

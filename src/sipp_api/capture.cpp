@@ -56,11 +56,6 @@ std::string numbered(const Capture& capture) {
   return path.string();
 }
 
-class PrintingSink : public DiagnosticSink {
- public:
-  void report(Diagnostic diagnostic) override { std::fputs(to_text(diagnostic).c_str(), stderr); }
-};
-
 void write_as_nff(const RenderRequest& request, const std::string& file) {
   Scene scene = snapshot({true, false, true});
   scene.view.resolution = {request.width, request.height};

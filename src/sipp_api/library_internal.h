@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <cstdint>
+#include <cstdio>
 #include <exception>
 #include <memory>
 #include <new>
@@ -16,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/diagnostics.h"
 #include "core/error.h"
 #include "core/math.h"
 #include "parse_sipp/sipp_surface_builder.h"
@@ -46,6 +48,12 @@ namespace farop::sipp_api {
 /// Prints "sipp: ..." to stderr.
 void message(const std::string& text);
 [[noreturn]] void out_of_memory();
+
+/// What a stage has to say goes to stderr.
+class PrintingSink : public DiagnosticSink {
+ public:
+  void report(Diagnostic diagnostic) override { std::fputs(to_text(diagnostic).c_str(), stderr); }
+};
 
 /// Runs `work`; a failure is printed and gives `fallback`.
 template <class Result, class Work>

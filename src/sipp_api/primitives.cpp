@@ -60,11 +60,6 @@ std::string rest_of(std::FILE* file) {
   return text;
 }
 
-class PrintingSink : public DiagnosticSink {
- public:
-  void report(Diagnostic diagnostic) override { std::fputs(to_text(diagnostic).c_str(), stderr); }
-};
-
 }  // namespace
 }  // namespace farop::sipp_api
 

@@ -12,7 +12,7 @@ namespace {
 constexpr int k_disc_resolution = 4;
 
 /// Takes +z to the direction of `axis`.
-M44d turn_from_z(const V3d& axis) {
+M44d turn_to_axis(const V3d& axis) {
   const V3d n = axis.normalized();
   const V3d hinge = std::abs(n.z) == 1 ? V3d(1, 0, 0) : V3d(-n.y, n.x, 0);
   return rotation(hinge, std::acos(n.z));
@@ -26,7 +26,7 @@ struct Torus {
 /// 2 (4R)^2 triangles, also in the form that keeps spheres and cones: NFF has no torus.
 void print_torus(NffPrinter& printer, const Torus& torus, int resolution) {
   const int steps = 4 * resolution;
-  const M44d turn = turn_from_z(torus.axis);
+  const M44d turn = turn_to_axis(torus.axis);
   const auto corner = [&](int tube_step, int ring_step) {
     const double theta = 2 * std::numbers::pi * tube_step / steps,
                  phi = 2 * std::numbers::pi * ring_step / steps;
@@ -48,7 +48,7 @@ void print_torus(NffPrinter& printer, const Torus& torus, int resolution) {
 void print_disc(NffPrinter& printer, const V3d& center, const V3d& normal, double inner_radius,
                 double outer_radius) {
   const int sectors = 4 * k_disc_resolution;
-  const M44d placement = turn_from_z(normal) * M44d().setTranslation(center);
+  const M44d placement = turn_to_axis(normal) * M44d().setTranslation(center);
   const auto corner = [&](double radius, int i) {
     const double angle = 2 * std::numbers::pi * i / sectors;
     return V3d(radius * std::cos(angle), radius * std::sin(angle), 0) * placement;
