@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "support/sanitizers.h"
 #include "support/shell.h"
 
 namespace {
@@ -15,7 +16,8 @@ using namespace farop::test;
 TEST(CheckCommand, PassesTheShippedRasterizers) {
   const TemporaryFolder folder;
   for (const char* name : {"internal", "trapezoid", "scanline_fill", "watkins", "solids"}) {
-    const Outcome run = shell(folder, std::string("farop check -q ") + name);
+    const Outcome run =
+        shell(folder, std::string("farop check -q ") + (k_address_sanitizer ? "--quick " : "") + name);
     EXPECT_EQ(run.status, 0) << run.out << run.err;
     // A remark may stand before it: the tiles of `internal` take all corners of a polygon each, so many
     // corners side by side cost the square.

@@ -11,6 +11,7 @@
 #include <set>
 #include <sstream>
 
+#include "support/sanitizers.h"
 #include "support/shell.h"
 
 namespace farop::test {
@@ -20,11 +21,7 @@ namespace fs = std::filesystem;
 
 const fs::path k_source = FAROP_SOURCE_DIR;
 
-#if defined(__SANITIZE_ADDRESS__)
-constexpr double k_patience = 30;  // seconds beyond a limit
-#else
-constexpr double k_patience = 6;
-#endif
+constexpr double k_patience = k_address_sanitizer ? 30 : 6;  // seconds beyond a limit
 
 Outcome must(const TemporaryFolder& folder, const std::string& command) {
   const Outcome run = shell(folder, command);

@@ -17,15 +17,12 @@
 #include "scene/merge.h"
 #include "scene/tessellate.h"
 #include "spd/spd.h"
+#include "support/sanitizers.h"
 
 namespace farop {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__)
-constexpr bool k_small = true;  // ten times slower: the scenes with most polygons in smaller sizes
-#else
-constexpr bool k_small = false;
-#endif
+constexpr bool k_small = test::k_address_sanitizer;  // the scenes with most polygons in smaller sizes
 
 struct NamedLibrary {
   const char *name, *path;

@@ -15,6 +15,7 @@
 #include "scene/plane.h"
 #include "scene/surface_builder.h"
 #include "scene/tessellate.h"
+#include "support/sanitizers.h"
 
 #ifdef FAROP_HAVE_ZLIB
 #include <zlib.h>
@@ -402,9 +403,9 @@ class RandomScene {
 };
 
 TEST(NffRoundTrip, KeepsEveryBitOfRandomScenes) {
-  for (unsigned seed = 1; seed <= 4000; ++seed) {
-    const std::string text = RandomScene(seed).text();
-    expect_round_trip(loaded(text, static_cast<int>(seed % 3)));
+  for (int seed = 1; seed <= test::rounds(4000); ++seed) {
+    const std::string text = RandomScene(static_cast<unsigned>(seed)).text();
+    expect_round_trip(loaded(text, seed % 3));
     if (HasFatalFailure() || HasNonfatalFailure()) FAIL() << "seed " << seed << "\n" << text;
   }
 }

@@ -9,6 +9,7 @@
 
 #include "geometry/batched/kernels.h"
 #include "random_scene.h"
+#include "support/sanitizers.h"
 #include "support/vector_targets.h"
 
 namespace farop {
@@ -93,7 +94,7 @@ Everything run(const test::RandomScene& scene, GeometryPath path, int threads) {
 }
 
 TEST(Batched, HandsOverWhatThePlainPathDoesOnEveryInstructionSet) {
-  const int scenes = std::getenv("FAROP_LONG_TESTS") != nullptr ? 20'000 : 250;
+  const int scenes = std::getenv("FAROP_LONG_TESTS") != nullptr ? 20'000 : test::rounds(250);
   const std::vector<std::int64_t> targets = test::vector_targets();
   PolygonCounts seen;
   for (int i = 0; i < scenes; ++i) {

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "raster/reference.h"
 #include "shading/material.h"
+#include "support/sanitizers.h"
 #include "unit/raster/raster_test_support.h"
 
 namespace farop::test {
@@ -271,12 +272,6 @@ TEST(InternalRasterizer, RefusesCallsInTheWrongOrderAndIncompleteBatches) {
   bare.add(rectangle(0, 0, 3, 3, 5, 1, 2, 3));
   EXPECT_EQ(status_of([&] { phong.polygons(bare.batch); }), ExitStatus::internal);
 }
-
-#if defined(__SANITIZE_ADDRESS__)
-constexpr bool k_address_sanitizer = true;
-#else
-constexpr bool k_address_sanitizer = false;
-#endif
 
 // Each runs in a process of its own, with 1 GiB of address space.
 template <class Action>

@@ -9,6 +9,7 @@
 
 #include "shading/material.h"
 #include "shading/shader.h"
+#include "support/sanitizers.h"
 #include "unit/raster/raster_test_support.h"
 #include "unit/raster/tiled_support.h"
 
@@ -149,7 +150,7 @@ Framebuffer picture_of(const Soup& soup, const RasterTuning& tuning) {
 
 TEST(Tiled, DrawsRandomSoupsAsThePlainPathDoes) {
   const char* const wanted = std::getenv("FAROP_SOUPS");
-  const int soups = wanted != nullptr ? std::atoi(wanted) : 150;
+  const int soups = wanted != nullptr ? std::atoi(wanted) : rounds(150);
   const std::vector<std::int64_t> all = targets();
   EXPECT_GE(all.size(), 2u);
   SoupMaker maker(71);
