@@ -69,8 +69,8 @@ void add_input_options(CLI::App& command, InputOptions& options) {
       ->group("Input");
   ScriptLimits& limits = options.limits;
   const std::string most =
-      fmt::format("what scripts may use up [{:g} s, {} MB, {:g}, {:g}]", limits.seconds, limits.memory_mb,
-                  static_cast<double>(limits.commands), static_cast<double>(limits.polygons));
+      fmt::format("what scripts may use up [{:g} s, {} MB, {:g}, {:g}, {}]", limits.seconds, limits.memory_mb,
+                  static_cast<double>(limits.commands), static_cast<double>(limits.polygons), limits.nesting);
   command.add_option("--script-time", limits.seconds, most)
       ->check(CLI::Range(0.001, 1e6))
       ->type_name("S")
@@ -85,6 +85,10 @@ void add_input_options(CLI::App& command, InputOptions& options) {
       ->group("Input");
   command.add_option("--script-polygons", limits.polygons, most)
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000'000}))
+      ->type_name("N")
+      ->group("Input");
+  command.add_option("--script-nesting", limits.nesting, most)
+      ->check(CLI::Range(10, 100'000))
       ->type_name("N")
       ->group("Input");
 }

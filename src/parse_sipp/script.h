@@ -27,7 +27,9 @@ namespace farop::sipp {
 template <class Thing>
 class Handles {
  public:
-  Handles(std::string prefix, std::string noun) : prefix_(std::move(prefix)), noun_(std::move(noun)) {}
+  /// `noun`: what a handle is, `maker`: which commands return one; both for messages.
+  Handles(std::string prefix, std::string noun, std::string maker)
+      : prefix_(std::move(prefix)), noun_(std::move(noun)), maker_(std::move(maker)) {}
 
   std::string add(Thing thing) {
     std::string name = prefix_ + std::to_string(next_++);
@@ -63,10 +65,10 @@ class Handles {
     if (deleted && std::stoull(text.substr(prefix_.size())) < next_) {
       throw ScriptError(quoted(word) + " has been deleted, expected " + noun_ + " that exists", text);
     }
-    unexpected(word, "a handle", noun_ + " (as its Create command returns it)");
+    unexpected(word, "a handle", noun_ + ", as " + maker_ + " returns it");
   }
 
-  std::string prefix_, noun_;
+  std::string prefix_, noun_, maker_;
   std::map<std::string, Thing> things_;
   std::uint64_t next_ = 0;
 };
@@ -149,19 +151,20 @@ class Script {
   std::vector<Diagnostic> remarks_;
   int renderings_ = 0;
 
-  Handles<std::shared_ptr<Object>> objects_{"object", "an object"};
-  Handles<std::shared_ptr<Surface>> surfaces_{"surface", "a surface"};
-  Handles<std::shared_ptr<const ScriptShader>> shaders_{"shader", "a shader"};
-  Handles<Light> lights_{"light", "a light"};
+  Handles<std::shared_ptr<Object>> objects_{"object", "an object", "SippObjectCreate or SippSphere"};
+  Handles<std::shared_ptr<Surface>> surfaces_{"surface", "a surface", "SippSurfaceCreate"};
+  Handles<std::shared_ptr<const ScriptShader>> shaders_{"shader", "a shader", "SippShaderBasic or its like"};
+  Handles<Light> lights_{"light", "a light", "SippLightSourceCreate"};
   std::vector<std::string> light_order_;  ///< handles, in order of creation
-  Handles<ScriptCamera> cameras_{"camera", "a camera"};
+  Handles<ScriptCamera> cameras_{"camera", "a camera", "SippCameraCreate"};
   std::string camera_in_use_ = "STDCAMERA";
   struct Output {
     bool pixmap = false;
     std::int64_t width = 0, height = 0;  ///< of the last rendering into it
   };
-  Handles<Output> pbm_files_{"pbmfile", "an open file"}, rle_files_{"rlefile", "an open file"},
-      pixmaps_{"pixmap", "a pixmap"};
+  Handles<Output> pbm_files_{"pbmfile", "an open file", "SippPBMOpen"},
+      rle_files_{"rlefile", "an open file", "SippRLEOpen"},
+      pixmaps_{"pixmap", "a pixmap", "SippPixMapCreate"};
   std::shared_ptr<Object> world_;
   std::unordered_map<const Object*, std::weak_ptr<Object>> first_parents_;
   std::unordered_set<const Object*> ever_children_;  ///< only these can be contained in something

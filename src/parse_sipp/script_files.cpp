@@ -51,7 +51,11 @@ std::string ScriptFiles::resolve(const std::string& name) const {
     throw ScriptError(fmt::format("'{}' lies outside the folder of the scene", shown), name, k_folder_hint);
   }
   const fs::path real = fs::canonical(wanted, ec);
-  if (ec) throw ScriptError(fmt::format("'{}': cannot open: {}", shown, ec.message()), name, k_folder_hint);
+  if (ec) {
+    const std::string folder = display_folder_.empty() ? "." : printable(display_folder_, 300);
+    throw ScriptError(fmt::format("'{}': cannot open: {}", shown, ec.message()), name,
+                      fmt::format("names are relative to the folder of the scene, '{}'", folder));
+  }
   if (!is_below(folder_, real)) {
     throw ScriptError(fmt::format("'{}' leads outside the folder of the scene", shown), name, k_folder_hint);
   }

@@ -58,6 +58,15 @@ std::string_view first_line(std::string_view text) {
   return text.substr(0, text.find('\n'));
 }
 
+/// Of Tcl's complaint about a variable that has no value: its name. Otherwise empty.
+std::string unset_variable(std::string_view message) {
+  constexpr std::string_view k_start = "can't read \"", k_end = "\": no such variable";
+  if (!message.starts_with(k_start) || !message.ends_with(k_end)) return {};
+  message.remove_prefix(k_start.size());
+  message.remove_suffix(k_end.size());
+  return std::string(message);
+}
+
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
@@ -440,8 +449,9 @@ void TclInterpreter::refine(ScriptPlace& place, int line_in_text, const std::str
 }
 
 TclInterpreter::Problem TclInterpreter::tcl_problem() const {
-  const std::string message(text_of(Tcl_GetObjResult(interp_)));
+  std::string message(text_of(Tcl_GetObjResult(interp_)));
   if (message == command_problem_.message) return command_problem_;
+  std::replace(message.begin(), message.end(), '\n', ' ');  // `expr` breaks the line before what it shows
   Problem problem;
   problem.message = message;
   problem.place.path = main_path_;
@@ -473,7 +483,12 @@ TclInterpreter::Problem TclInterpreter::tcl_problem() const {
   const std::string command(entries.empty() ? std::string_view() : first_line(entries.front().command));
   const std::string shown = printable(command);
   problem.word = std::string(first_word(command));
-  problem.hint = suggestion(message);
+  problem.hint = remedy(message);
+  const std::string variable = "$" + unset_variable(message);
+  const ScriptText* text = variable.size() > 1 ? files_.find(place.path) : nullptr;
+  if (text != nullptr && text->line(place.line).find(variable) != std::string_view::npos) {
+    problem.word = variable;
+  }
   const bool own_words = problem.word == "error" || problem.word == "throw" || problem.word == "return";
   if (!shown.empty() && !own_words && message.find(problem.word) == std::string::npos) {
     problem.message += fmt::format(", in '{}'", shown);
@@ -481,9 +496,18 @@ TclInterpreter::Problem TclInterpreter::tcl_problem() const {
   return problem;
 }
 
-std::string TclInterpreter::suggestion(const std::string& message) const {
+std::string TclInterpreter::remedy(const std::string& message) const {
   constexpr std::string_view k_unknown = "invalid command name \"";
-  if (message.starts_with("too many nested evaluations")) return "does a procedure call itself for ever?";
+  if (message.starts_with("too many nested evaluations")) {
+    return "does a procedure call itself for ever? --script-nesting N allows more";
+  }
+  if (!unset_variable(message).empty()) {
+    return "set it before, or from outside by --define NAME=VALUE; procedures write $::NAME for what is set "
+           "outside them";
+  }
+  if (message.starts_with("missing close-brace")) {
+    return "every { needs its }, in comments and strings too: look for the one that is open";
+  }
   if (!message.starts_with(k_unknown)) return {};
   const std::string name = message.substr(k_unknown.size(), message.size() - k_unknown.size() - 1);
   std::size_t best = 1 + name.size() / 4;

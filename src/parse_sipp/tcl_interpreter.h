@@ -94,7 +94,8 @@ class TclInterpreter {
   Problem tcl_problem() const;
   /// From the line where a text begins to the line of `command` in it, if the file bears that out.
   void refine(ScriptPlace& place, int line_in_text, const std::string& command) const;
-  std::string suggestion(const std::string& message) const;
+  /// What to do about an error of Tcl's own; empty where nothing is known.
+  std::string remedy(const std::string& message) const;
 
   Tcl_Interp* interp_ = nullptr;
   ScriptFiles& files_;

@@ -152,6 +152,46 @@ TEST(ScriptErrors, OfTclItselfAreTracedIntoProcedures) {
   EXPECT_NE(run.err.find("called from a.sipp:8"), std::string::npos) << run.err;
 }
 
+TEST(ScriptErrors, OfTclItselfHaveARemedyToo) {
+  const TemporaryFolder folder;
+  const auto said = [&](const std::string& script) {
+    write_file(folder / "a.sipp", script);
+    const Outcome run = shell(folder, "farop info a.sipp");
+    EXPECT_EQ(run.status, 1);
+    return run.err;
+  };
+  EXPECT_EQ(
+      said("set x 1\nSippObjectMove WORLD [list $x $frame 0]\n"),
+      "a.sipp:2:31: error: can't read \"frame\": no such variable, in 'list $x $frame 0'\n"
+      "     2 | SippObjectMove WORLD [list $x $frame 0]\n"
+      "       |                               ^~~~~~\n"
+      "  hint: set it before, or from outside by --define NAME=VALUE; procedures write $::NAME for what "
+      "is set outside them\n");
+  EXPECT_NE(said("expr {1 +}\n").find("error: missing operand at _@_ in expression \"1 +_@_\"\n"),
+            std::string::npos);
+  EXPECT_NE(said("set s 1\nif {$s} {\n  puts a\n").find("  hint: every { needs its }"), std::string::npos);
+  EXPECT_NE(said("source parts/arm.tcl\n").find("'parts/arm.tcl': cannot open: No such file or directory\n"),
+            std::string::npos);
+  EXPECT_NE(said("source parts/arm.tcl\n").find("relative to the folder of the scene, '.'"),
+            std::string::npos);
+}
+
+TEST(ScriptErrors, NestingStopsWhereTheOptionSays) {
+  const TemporaryFolder folder;
+  write_file(folder / "a.sipp",
+             "proc depth {n} {\n  if {$n > 1} {depth [expr {$n - 1}]}\n}\ndepth $n\n"
+             "SippRender [SippPixMapCreate] 10 10\n");
+  const auto run = [&](const std::string& options) { return shell(folder, "farop info a.sipp " + options); };
+  EXPECT_EQ(run("--define n=900").status, 0);
+  const Outcome deep = run("--define n=1100");
+  EXPECT_EQ(deep.status, 1);
+  EXPECT_NE(deep.err.find("too many nested evaluations"), std::string::npos) << deep.err;
+  EXPECT_NE(deep.err.find("--script-nesting N allows more"), std::string::npos) << deep.err;
+  EXPECT_EQ(run("--define n=1100 --script-nesting 1200").status, 0);
+  EXPECT_EQ(run("--define n=50 --script-nesting 40").status, 1);
+  EXPECT_EQ(run("--define n=5 --script-nesting 9").status, 2);
+}
+
 TEST(ScriptErrors, SuggestCommands) {
   const TemporaryFolder folder;
   write_file(folder / "a.sipp", "set s [SippShaderFong 0 1 0 1 {1 1 1}]\n");

@@ -351,7 +351,7 @@ TEST(TclErrors, SayWhatWasFoundAndWhatWasExpected) {
        "expected an angle of more than 0 up to 360 degrees"},
       {"SippCameraParams STDCAMERA {} {} {} 0", "'0' found for the focal ratio, expected a number > 0"},
       {"SippShowBackFaces maybe", "'maybe' found for the flag, expected 0, 1, true or false"},
-      {"SippRender x 10 10", "'x' found for a handle, expected an open file"},
+      {"SippRender x 10 10", "'x' found for a handle, expected an open file, as SippPBMOpen returns it"},
       {"SippRender {} 10", "2 arguments found"},
       {"SippRender -sideways {} 10 10", "'-sideways' found for a flag"},
       {"SippRender -odd {} 10 10 LINE", "-odd and -even do not go with LINE"},
