@@ -343,6 +343,39 @@ static void textures_are_in_perspective(void) {
   sipp_pixmap_destruct(image);
 }
 
+static void ramp_shader(Vector* pos, Vector* normal, Vector* texture, Vector* view_vec,
+                        Lightsource* light_list, void* desc, Color* color, Color* opacity) {
+  (void)pos, (void)normal, (void)view_vec, (void)light_list, (void)desc;
+  color->red = color->grn = color->blu = texture->y;
+  opacity->red = opacity->grn = opacity->blu = 1.0;
+}
+
+/* What the page about programs says: how far the two modes are apart. */
+static void colours_of_corners_are_linear_on_the_screen(void) {
+  Object* object;
+  Sipp_pixmap *phong, *gouraud;
+  double deeper, apart;
+  int row, difference, most = 0;
+  current = "linear colours";
+  start();
+  object = show(square(0.0, NULL, (Shader*)ramp_shader));
+  object_scale(object, 4.0, 4.0, 1.0);
+  object_rot_x(object, -75.0 * M_PI / 180.0);
+  phong = draw(201, PHONG);
+  gouraud = draw(201, GOURAUD);
+  for (row = 0; row < 201; row++) {
+    difference = abs(level(phong, 100, row, 0) - level(gouraud, 100, row, 0));
+    if (difference > most) most = difference;
+  }
+  deeper = 4.0 * sin(75.0 * M_PI / 180.0);
+  apart = sqrt((10.0 + deeper) / (10.0 - deeper));
+  apart = 255.0 * (apart - 1.0) / (apart + 1.0);
+  EXPECT(fabs(apart - 51.0) < 0.5);
+  EXPECT(fabs(most - apart) < 2.0);
+  sipp_pixmap_destruct(phong);
+  sipp_pixmap_destruct(gouraud);
+}
+
 static void opaque_answers_hide(void) {
   Surf_desc bright;
   Sipp_pixmap* image;
@@ -808,6 +841,7 @@ int main(void) {
   late_binding();
   shaders_of_the_program();
   textures_are_in_perspective();
+  colours_of_corners_are_linear_on_the_screen();
   opaque_answers_hide();
   transparency_adds_up();
   masks_and_bumps();
