@@ -90,7 +90,10 @@ using namespace farop::sipp_api;
 using farop::V3d;
 
 Lightsource* lightsource_create(double x, double y, double z, double red, double grn, double blu, int type) {
-  if (type != LIGHT_DIRECTION && type != LIGHT_POINT) return nullptr;
+  if (type != LIGHT_DIRECTION && type != LIGHT_POINT) {
+    message(fmt::format("lightsource_create: type {} (LIGHT_DIRECTION or LIGHT_POINT)", type));
+    return nullptr;
+  }
   return guarded<Lightsource*>(nullptr, [&] {
     LightInfo info;
     info.position = V3d(x, y, z);
@@ -102,7 +105,10 @@ Lightsource* lightsource_create(double x, double y, double z, double red, double
 Lightsource* spotlight_create(double x, double y, double z, double to_x, double to_y, double to_z,
                               double opening, double red, double grn, double blu, int type,
                               Sipp_bool shadow) {
-  if (type != SPOT_SHARP && type != SPOT_SOFT) return nullptr;
+  if (type != SPOT_SHARP && type != SPOT_SOFT) {
+    message(fmt::format("spotlight_create: type {} (SPOT_SHARP or SPOT_SOFT)", type));
+    return nullptr;
+  }
   return guarded<Lightsource*>(nullptr, [&] {
     return new_light({V3d(x, y, z), V3d(to_x, to_y, to_z), opening, shadow != 0, nullptr}, {red, grn, blu},
                      type);

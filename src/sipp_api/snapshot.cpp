@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 #include <unordered_map>
+#include <utility>
 
 #include "scene/plane.h"
 #include "snapshot_internal.h"
@@ -56,12 +57,16 @@ class Snapshot {
     }
     if (options_.shaders) {
       known->shader = bound_shader(source.shader, source.description, options_.interruptible);
+      if (!known->shader && !std::exchange(said_, true)) {
+        message("a surface without a shader, or whose shader has no description, is drawn white");
+      }
       if (options_.materials) known->material = known->shader ? known->shader->approximate() : Material{};
     }
     return known;
   }
 
   const SnapshotOptions& options_;
+  bool said_ = false;  ///< that a surface has no shader
   std::unordered_map<const ::Object*, std::shared_ptr<farop::Object>> objects_;
   std::unordered_map<const ::Surface*, std::shared_ptr<farop::Surface>> surfaces_;
 };

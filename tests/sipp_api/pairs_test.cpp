@@ -240,5 +240,38 @@ TEST(SippPairs, HaveTheSamePicture) {
   }
 }
 
+/// What a wrong call says: the call, and what was expected.
+TEST(SippMessages, NameTheCallAndWhatWasExpected) {
+  sipp_init();
+  Surf_desc white = {0.2, 0, 0.5, {1, 1, 1}, {1, 1, 1}};
+  const auto said = [](const std::function<bool()>& call) {
+    testing::internal::CaptureStderr();
+    EXPECT_TRUE(call());
+    return testing::internal::GetCapturedStderr();
+  };
+  ::Shader* const shader = reinterpret_cast<::Shader*>(basic_shader);
+  EXPECT_EQ(said([&] { return sipp_torus(1, 0.5, 0, 10, &white, shader, WORLD) == nullptr; }),
+            "sipp: sipp_torus(1, 0.5, 0, 10): nothing is made (expected finite radii, resolutions of 1 or "
+            "more)\n");
+  EXPECT_EQ(said([&] { return sipp_cone(-1, 1, 2, 8, &white, shader, WORLD) == nullptr; }),
+            "sipp: sipp_cone(-1, 1, 2, 8): nothing is made (expected finite sizes, radii of 0 or more and "
+            "not both 0, a resolution of 1 or more)\n");
+  EXPECT_EQ(said([&] { return sipp_cube(1, &white, shader, 9) == nullptr; }),
+            "sipp: sipp_cube(1): unknown texture mapping 9 (WORLD, CYLINDRICAL, SPHERICAL or NATURAL)\n");
+  EXPECT_NE(said([&] { return sipp_bezier_file(nullptr, 3, &white, shader, WORLD) == nullptr; }), "");
+  EXPECT_EQ(said([&] { return lightsource_create(0, 0, 1, 1, 1, 1, SPOT_SOFT) == nullptr; }),
+            "sipp: lightsource_create: type 3 (LIGHT_DIRECTION or LIGHT_POINT)\n");
+  EXPECT_EQ(
+      said([&] { return spotlight_create(0, 0, 1, 0, 0, 0, 9, 1, 1, 1, LIGHT_POINT, FALSE) == nullptr; }),
+      "sipp: spotlight_create: type 1 (SPOT_SHARP or SPOT_SOFT)\n");
+  // Two surfaces without a shader: said once for each scene that is taken.
+  for (int i = 0; i < 2; ++i) object_add_subobj(sipp_world, sipp_sphere(1, 8, &white, nullptr, WORLD));
+  EXPECT_EQ(said([] {
+              return !sipp_api::snapshot({true, false, true}).root.children.empty();
+            }),
+            "sipp: a surface without a shader, or whose shader has no description, is drawn white\n");
+  sipp_init();
+}
+
 }  // namespace
 }  // namespace farop
