@@ -127,7 +127,9 @@ class NffWriter {
     std::vector<std::string> lost;
     const Material material = surface.shader->approximate(&lost);
     losses_.add(lost);
-    if (!surface.shader->opaque()) losses_.add("how opacities of surfaces behind each other add up");
+    // Whether a function of a program is opaque nobody knows before it is asked.
+    if (!surface.shader->opaque() && material.transmittance > 0)
+      losses_.add("how opacities of surfaces behind each other add up");
     return material;
   }
 

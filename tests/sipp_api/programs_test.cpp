@@ -158,6 +158,10 @@ TEST(SippCapture, AsksShaderFunctionsWhatTheyScatter) {
   TemporaryFolder folder;
   const Outcome outcome = run(folder, "FAROP_CAPTURE=holes.nff " + program("holes") + " -s 64");
   EXPECT_NE(outcome.err.find("functions of the program"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("how opacities"), std::string::npos) << outcome.err;
+  const Outcome opaque = run(folder, "FAROP_CAPTURE=scroll.nff " + program("scroll") + " -s 64");
+  EXPECT_NE(opaque.err.find("functions of the program"), std::string::npos) << opaque.err;
+  EXPECT_EQ(opaque.err.find("how opacities"), std::string::npos) << opaque.err;
   const auto scene = read_nff(folder / "holes.nff");
   ASSERT_TRUE(scene);
   const auto& surfaces = scene->root.children[0]->surfaces;

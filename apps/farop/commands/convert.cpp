@@ -33,6 +33,7 @@ void run(Session& session, const ConvertOptions& options) {
     parameters.resolution = {view->viewport.resolution.x, view->viewport.resolution.y};
   }
   NffWriteOptions writing;
+  writing.name = output == "-" ? "standard output" : output;
   TriangulateScratch scratch;
   std::vector<std::uint32_t> ring;
   if (options.scene.triangles) {
@@ -51,10 +52,9 @@ void run(Session& session, const ConvertOptions& options) {
     file.commit();
   }
   session.report.outputs.push_back(output);
-  session.console.summary("{}: {} polygons (parse {:.3f} s, load {:.3f} s, write {:.3f} s)",
-                          output == "-" ? "standard output" : output, *session.report.polygons_loaded,
-                          session.clocks.parse.total().elapsed, session.clocks.load.total().elapsed,
-                          session.clocks.write.total().elapsed);
+  session.console.summary("{}: {} polygons (parse {:.3f} s, load {:.3f} s, write {:.3f} s)", writing.name,
+                          *session.report.polygons_loaded, session.clocks.parse.total().elapsed,
+                          session.clocks.load.total().elapsed, session.clocks.write.total().elapsed);
 }
 
 }  // namespace
