@@ -472,6 +472,27 @@ static void lights_in_shaders_of_the_program(void) {
   sipp_pixmap_destruct(image);
 }
 
+static void lights_switched_off_give_no_light(void) {
+  Surf_desc matt;
+  Lightsource* light;
+  Sipp_pixmap* image;
+  int on, mode;
+  current = "lights switched off";
+  start();
+  matt = white;
+  matt.ambient = 0.25;
+  light = lightsource_create(0.0, 0.0, 1.0, 0.5, 0.5, 0.5, LIGHT_DIRECTION);
+  show(square(0.0, &matt, (Shader*)basic_shader));
+  for (on = 0; on < 2; on++) {
+    light_active(light, on);
+    for (mode = PHONG; mode <= FLAT; mode++) {
+      image = draw(20, mode);
+      EXPECT(level(image, 10, 10, 0) == (on ? 191 : 64));
+      sipp_pixmap_destruct(image);
+    }
+  }
+}
+
 static void called_shaders_equal_bound_ones(void) {
   Phong_desc phong = {0.2, 0.6, 0.4, 7, {0.8, 0.5, 0.2}, {1.0, 0.5, 0.25}};
   Vector pos, normal, texture, view;
@@ -846,6 +867,7 @@ int main(void) {
   transparency_adds_up();
   masks_and_bumps();
   lights_in_shaders_of_the_program();
+  lights_switched_off_give_no_light();
   called_shaders_equal_bound_ones();
   deformation();
   own_normals_survive_deformation();
