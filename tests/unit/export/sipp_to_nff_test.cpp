@@ -274,6 +274,11 @@ std::map<std::string, Scene> lossy_scenes() {
   with_shader("planet", std::make_shared<const PlanetShader>(finish, PlanetPattern{}));
   with_shader("bumpy, around basic",
               std::make_shared<const BumpyShader>(basic(0.30, 0.2), BumpParameters{8, true, true}));
+  with_shader("mask, stripes of two basics",
+              std::make_shared<const MaskShader>(
+                  basic(0.30, 0.2),
+                  std::make_shared<const BasicShader>(BasicParameters{0.30, 0.4, 0.2, other, solid}),
+                  [](const V3d& texture) { return std::fmod(std::abs(texture.z), 0.5) < 0.25; }, "stripes"));
   with_lights("directional lights", {light_at(V3d(1, -1, 1), {0.5, 0.5, 0.5}, LightKind::directional)});
   with_lights("sharp spot, 20 degrees", {spot_at(V3d(4, -6, 8), 20, {0.5, 0.5, 0.5}, LightKind::spot_sharp)});
   with_lights("soft spot, 20 degrees", {spot_at(V3d(4, -6, 8), 20, {0.5, 0.5, 0.5}, LightKind::spot_soft)});
