@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <new>
 #include <set>
@@ -56,6 +57,60 @@ std::string_view first_line(std::string_view text) {
   if (begin == std::string_view::npos) return {};
   text.remove_prefix(begin);
   return text.substr(0, text.find('\n'));
+}
+
+/// Where `word` stands in `line`, from `from` on; npos also where several words could be meant.
+std::size_t only_place(std::string_view line, std::string_view word, std::size_t from) {
+  const auto joins = [&](std::size_t at) {
+    return at < line.size() && (std::isalnum(static_cast<unsigned char>(line[at])) != 0 || line[at] == '_' ||
+                                line[at] == '.' || line[at] == '-');
+  };
+  std::size_t found = std::string_view::npos;
+  for (std::size_t at = line.find(word, from); at != std::string_view::npos; at = line.find(word, at + 1)) {
+    if ((at > 0 && joins(at - 1)) || joins(at + word.size())) continue;
+    if (found != std::string_view::npos) return std::string_view::npos;
+    found = at;
+  }
+  return found;
+}
+
+/// Which argument, from 1, has the text `word`, or has it inside; 0 where none has, nothing where several
+/// have.
+std::optional<std::size_t> argument_of(TclInterpreter::Words arguments, const std::string& word) {
+  for (const bool whole : {true, false}) {
+    std::size_t found = 0;
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+      if (arguments[i]->bytes == nullptr) continue;  // was never text: no message quotes it
+      const std::string_view text = text_of(arguments[i]);
+      if (whole ? text != word : text.find(word) == std::string_view::npos) continue;
+      if (found > 0) return std::nullopt;
+      found = i + 1;
+    }
+    if (found > 0) return found;
+  }
+  return 0;
+}
+
+/// How an argument, from 1, of the command that begins at `command` is written in `line`. Empty where the
+/// line does not tell.
+std::string_view written_argument(std::string_view line, std::size_t command, std::size_t argument) {
+  const int nested = command > 0 && line[command - 1] == '[' ? 1 : 0;
+  std::string_view text = line.substr(command);
+  if (text.ends_with('\\')) text.remove_suffix(1);  // goes on in the next line
+  Tcl_Parse parse;
+  if (Tcl_ParseCommand(nullptr, text.data(), static_cast<int>(text.size()), nested, &parse) != TCL_OK)
+    return {};
+  std::string_view written;
+  const Tcl_Token* token = parse.tokenPtr;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(parse.numWords); ++i) {
+    if (token->type == TCL_TOKEN_EXPAND_WORD) break;  // {*}: several arguments
+    if (i == argument)
+      written = text.substr(static_cast<std::size_t>(token->start - text.data()),
+                            static_cast<std::size_t>(token->size));
+    token += token->numComponents + 1;
+  }
+  Tcl_FreeParse(&parse);
+  return written;
 }
 
 /// Of Tcl's complaint about a variable that has no value: its name. Otherwise empty.
@@ -298,7 +353,7 @@ int TclInterpreter::invoke(const Entry& entry, Words arguments) {
   } catch (const ErrorInside&) {
     return TCL_ERROR;
   } catch (const ScriptError& error) {
-    return report(entry.name, entry.usage, error);
+    return report(entry.name, entry.usage, error, arguments);
   } catch (const Error& error) {
     return report(entry.name, entry.usage, ScriptError(error.what(), {}, error.hint()));
   }
@@ -315,12 +370,16 @@ int TclInterpreter::no_memory(const std::string& name) {
   }
 }
 
-int TclInterpreter::report(const std::string& name, const std::string& usage, const ScriptError& error) {
+int TclInterpreter::report(const std::string& name, const std::string& usage, const ScriptError& error,
+                           Words arguments) {
   if (final_problem_ || stopped_) return TCL_ERROR;
   Problem problem;
   problem.message = fmt::format("{}: {}", name, error.what());
   problem.hint = error.hint().empty() ? fmt::format("usage: {} {}", name, usage) : error.hint();
-  problem.word = error.word();
+  if (!error.word().empty()) {
+    const std::optional<std::size_t> argument = argument_of(arguments, error.word());
+    if (argument) problem.word = error.word(), problem.argument = *argument;
+  }
   problem.place = place();
   Tcl_SetObjResult(interp_, new_text(problem.message));
   if (dynamic_cast<const ScriptLimitError*>(&error) != nullptr) {
@@ -534,11 +593,12 @@ TclInterpreter::Ending TclInterpreter::run(const std::string& path) {
 
 Diagnostic TclInterpreter::failure() const {
   const Problem& p = *final_problem_;
-  return diagnostic(Severity::error, p.place, p.message, p.hint, p.word);
+  return diagnostic(Severity::error, p.place, p.message, p.hint, p.word, p.argument);
 }
 
 Diagnostic TclInterpreter::diagnostic(Severity severity, const ScriptPlace& place, const std::string& message,
-                                      const std::string& hint, const std::string& word) const {
+                                      const std::string& hint, const std::string& word,
+                                      std::size_t argument) const {
   Diagnostic d;
   d.severity = severity;
   d.message = printable(message, 400);
@@ -563,9 +623,23 @@ Diagnostic TclInterpreter::diagnostic(Severity severity, const ScriptPlace& plac
   // Behind the name of the command, if that is on this line too.
   const std::string_view name = first_word(std::string_view(message).substr(0, message.find(':')));
   const std::size_t command = line.find(name);
-  const std::size_t from = command == std::string_view::npos ? 0 : command;
-  std::size_t at = word.empty() ? std::string_view::npos : line.find(word, from);
-  std::size_t length = word.size();
+  std::size_t at = std::string_view::npos, length = word.size();
+  if (argument > 0 && command != std::string_view::npos) {
+    const std::string_view written = written_argument(line, command, argument);
+    if (!written.empty()) at = static_cast<std::size_t>(written.data() - line.data());
+    const bool literal = written.starts_with('{') || written.starts_with('"');
+    const std::size_t inside = literal ? written.find(word) : std::string_view::npos;
+    if (inside != std::string_view::npos) {
+      at += inside;
+    } else {
+      length = written.size();
+    }
+  }
+  if (at == std::string_view::npos && !word.empty()) {
+    length = word.size();
+    at = only_place(line, word, command == std::string_view::npos ? 0 : command);
+    if (at == std::string_view::npos && command == std::string_view::npos) at = line.find(word);
+  }
   if (at == std::string_view::npos && command != std::string_view::npos && !name.empty()) {
     at = command;
     length = name.size();

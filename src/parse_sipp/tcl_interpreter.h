@@ -58,8 +58,10 @@ class TclInterpreter {
   Diagnostic failure() const;
   /// Where the running command stands.
   ScriptPlace place() const;
+  /// `word`: what is wrong, `argument`: which argument of the command it came with, from 1 (0: not known).
   Diagnostic diagnostic(Severity severity, const ScriptPlace& place, const std::string& message,
-                        const std::string& hint, const std::string& word = {}) const;
+                        const std::string& hint, const std::string& word = {},
+                        std::size_t argument = 0) const;
 
   const ScriptFiles& files() const { return files_; }
 
@@ -73,6 +75,7 @@ class TclInterpreter {
   /// An error and what to say about it.
   struct Problem {
     std::string message, hint, word;
+    std::size_t argument = 0;  ///< of the command, from 1: the one that has the word; 0: not known
     ScriptPlace place;
   };
 
@@ -85,7 +88,8 @@ class TclInterpreter {
   void add_host_commands();
   void set_limits(const ScriptLimits& limits);
   int no_memory(const std::string& name);
-  int report(const std::string& name, const std::string& usage, const ScriptError& error);
+  int report(const std::string& name, const std::string& usage, const ScriptError& error,
+             Words arguments = {});
   void fail_for_good(Problem problem);
   Tcl_Obj* source(Words words);
   Tcl_Obj* put(Words words);

@@ -176,6 +176,27 @@ TEST(ScriptErrors, OfTclItselfHaveARemedyToo) {
             std::string::npos);
 }
 
+TEST(ScriptErrors, PointAtTheWordOnlyWhereItCanBeNoOther) {
+  const TemporaryFolder folder;
+  const auto said = [&](const std::string& command) {
+    write_file(folder / "a.sipp", "set s 1\n" + command + "\n");
+    return shell(folder, "farop info a.sipp").err;
+  };
+  const auto starts = [](const std::string& text, const std::string& start) {
+    return text.starts_with(start);
+  };
+  // The shader is 1, wherever else a 1 stands.
+  EXPECT_PRED2(starts, said("SippSphere 12 1 $s"), "a.sipp:2:1: error: SippSphere: '1' found for a handle");
+  EXPECT_PRED2(starts, said("SippSphere 12 21 $s"), "a.sipp:2:18: error: SippSphere: '1' found for a handle");
+  EXPECT_PRED2(starts, said("set o [SippSphere 12 21 $s]"), "a.sipp:2:25: error: SippSphere: '1' found for");
+  EXPECT_PRED2(starts, said("SippSphere 12 24 1"), "a.sipp:2:18: error: SippSphere: '1' found for a handle");
+  EXPECT_PRED2(starts, said("SippSphere 12 24 \\\n $s"), "a.sipp:2:1: error: SippSphere: '1' found for");
+  EXPECT_PRED2(starts, said("SippSphere {*}{12 24 1}"), "a.sipp:2:22: error: SippSphere: '1' found for");
+  EXPECT_PRED2(starts, said("SippObjectMove WORLD [list 3 x 3]"), "a.sipp:2:30: error: ");
+  EXPECT_PRED2(starts, said("SippObjectMove WORLD {1 2}"), "a.sipp:2:23: error: ");
+  EXPECT_PRED2(starts, said("puts [expr {1 / 0}]; expr 1"), "a.sipp:2:7: error: divide by zero");
+}
+
 TEST(ScriptErrors, NestingStopsWhereTheOptionSays) {
   const TemporaryFolder folder;
   write_file(folder / "a.sipp",
