@@ -21,9 +21,14 @@ CheckResult check_again(const CheckedRun& run, const std::vector<Case>& cases, c
                         std::uint64_t seed) {
   CheckOptions options = run.options;
   options.shrink = false;
-  options.finished = {};
+  options.finished = {}, options.explain = {};
   PrintedLines not_told;
   return run_check(cases, *make_subjects(run.session, run.chosen, how, seed, not_told), options);
+}
+
+/// What was not drawn any more has shown nothing.
+bool stopped(const CheckedRun& run) {
+  return run.options.interrupted && run.options.interrupted();
 }
 
 }  // namespace
@@ -38,7 +43,7 @@ void blame_threads(const CheckedRun& run, const std::vector<Case>& cases, CheckR
   std::ranges::copy_if(cases, std::back_inserter(again), [](const Case& c) { return c.family == "det"; });
   RasterizerOptions alone = run.how;
   alone.threads = 1;
-  if (std::ranges::any_of(check_again(run, again, alone, run.seed).findings, repeats)) return;
+  if (std::ranges::any_of(check_again(run, again, alone, run.seed).findings, repeats) || stopped(run)) return;
   first->verdict = "det.threads";
   first->message += ", and only with threads";
   first->hint = "your threads race: let no two of them write to, or read and write, the same memory";
@@ -56,7 +61,7 @@ void blame_threads(const CheckedRun& run, const std::vector<Case>& cases, CheckR
 void note_seed_dependence(const CheckedRun& run, const std::vector<Case>& usual, CheckResult& result) {
   constexpr std::uint64_t known = CorpusOptions{}.seed;
   if (run.seed == known || !result.has_errors()) return;
-  if (check_again(run, usual, run.how, known).has_errors()) return;
+  if (check_again(run, usual, run.how, known).has_errors() || stopped(run)) return;
   result.notes.push_back(
       fmt::format("the same cases pass under --seed {}: what it draws depends on the seed, as if the answers "
                   "to the cases that everybody knows had been stored",

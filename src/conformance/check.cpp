@@ -51,6 +51,7 @@ class Checker {
     result_.cases = std::move(rows_);
     result_.perf = std::move(all_.perf);
     sum_up(corpus_, result_);
+    if (options_.explain) options_.explain(result_);
     tell_the_rest();
     Summary& s = result_.summary;
     s.precision = precision_of(result_.findings, all_.worst_depth, all_.worst_color);

@@ -30,6 +30,9 @@ struct CheckOptions {
   /// Gets each case once, as soon as its verdict is final: those without fault while their family runs, the
   /// others at the end, when causes have been named. By several threads, but one at a time.
   std::function<void(const CaseResult&)> finished;
+  /// Gets the result when all findings are there, before the cases with faults are told: may look for further
+  /// causes, and change findings and the verdicts of those cases.
+  std::function<void(CheckResult&)> explain;
   /// Asked now and then: true ends the run early; what was found so far is kept.
   std::function<bool()> interrupted;
 };

@@ -124,6 +124,22 @@ TEST_F(CheckResults, ARunThatIsStoppedLeavesTheLinesOfWhatItHadDone) {
   EXPECT_EQ(Json::parse(read(folder, "g.json"))["score"], 0) << "Gradescope sees that it did not finish";
 }
 
+// What a second look says stands in the lines, too: they are told once it is known.
+TEST_F(CheckResults, LinesSayWhatTheReportSaysOfThreadsThatRace) {
+  const Outcome run =
+      shell(folder,
+            "farop check " FAROP_HOSTILE
+            "/det.threads/24b-race.so --threads 2 --family det --no-shrink -q --json r.json --jsonl r.jsonl");
+  ASSERT_EQ(run.status, 1) << run.out << run.err;
+  const Json json = Json::parse(read(folder, "r.json"));
+  ASSERT_EQ(json["findings"].size(), 1u) << json["findings"];
+  EXPECT_EQ(json["findings"][0]["verdict"], "det.threads");
+  const auto found = lines(read(folder, "r.jsonl"));
+  ASSERT_EQ(found.size(), json["cases"].size());
+  EXPECT_EQ(Json::parse(found[0])["verdicts"], json["cases"][0]["verdicts"]) << found[0];
+  EXPECT_EQ(json["cases"][0]["verdicts"], Json::array({"det.threads"}));
+}
+
 TEST_F(CheckResults, SpeaksToGithub) {
   const Outcome run =
       shell(folder, "echo before > s.md; GITHUB_STEP_SUMMARY=s.md farop check --github " + k_upside_down);

@@ -299,11 +299,14 @@ void run(Session& session, CheckCommand command) {
   options.interrupted = [] { return StopSignals::came(); };
   options.progress = session.console.progress("checking");
   if (!command.reports.jsonl.empty()) options.finished = [&lines](const CaseResult& c) { lines.add(c); };
+  if (command.emit.empty() && command.images.empty()) {
+    options.explain = [&](CheckResult& result) {
+      if (!StopSignals::came()) explain(session, command, chosen, cases, options, result);
+    };
+  }
   CheckResult result = run_check(cases, *maker, options);
   session.console.end_progress();
   const bool stopped = StopSignals::came();
-  if (command.emit.empty() && command.images.empty() && !stopped)
-    explain(session, command, chosen, cases, options, result);
   if (!command.emit.empty()) {
     session.console.summary("{}: the flat files of {} cases; draw each as .ppm beside it, then --images {}",
                             command.emit, cases.size(), command.emit);
