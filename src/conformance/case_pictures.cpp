@@ -75,7 +75,7 @@ void judge_picture(const Run& run, const Case& c, const Drawing& given, const Fr
          "keep more fractional bits, or use double", judged.drifted);
   }
   if (judged.wrong.empty()) return;
-  out.colors.add(expected, judged.wrong);
+  (c.family == "scene" ? out.scene_colors : out.colors).add(expected, judged.wrong);
   // By kind, so that one cause is told once.
   std::map<std::string, std::vector<WrongSample>> kinds;
   for (const WrongSample& s : judged.wrong) kinds[kind_of(expected, s, c.family)].push_back(s);

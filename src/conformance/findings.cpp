@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <initializer_list>
 #include <map>
 #include <set>
 #include <string>
@@ -28,10 +29,59 @@ void name_overflows(std::vector<Problem>& problems) {
   }
 }
 
+bool starts_with_one_of(const std::string& text, std::initializer_list<const char*> heads) {
+  return std::ranges::any_of(heads, [&](const char* head) { return text.starts_with(head); });
+}
+
+bool is_about_pixels(const Problem& p) {
+  return starts_with_one_of(p.verdict, {"fill.", "cov.", "tile.", "depth.", "colour."});
+}
+
+/// Where values are wrong, some of them are nearly right.
+void drop_drift_of_wrong_values(std::vector<Problem>& problems) {
+  for (const std::string kind : {"depth.", "colour."}) {
+    const bool wrong = std::ranges::any_of(problems, [&](const Problem& p) {
+      return p.severity == Severity::error && p.verdict.starts_with(kind);
+    });
+    if (!wrong) continue;
+    std::erase_if(problems, [&](const Problem& p) {
+      return p.severity == Severity::warning && p.verdict == kind + "drift";
+    });
+  }
+}
+
+/// A scene shows what is wrong with pixels in general, too, and cannot tell a wrong colour from another
+/// polygon's: what smaller pictures have shown already explains it.
+void blame_what_is_known(std::vector<Problem>& problems) {
+  const auto of_scene = [](const Problem& p) {
+    return starts_with_one_of(p.case_id, {"scene/", "meta/scene-"});
+  };
+  std::vector<Problem> known;
+  for (const Problem& p : problems) {
+    if (p.severity != Severity::error || of_scene(p) || !is_about_pixels(p)) continue;
+    Problem named;
+    named.verdict = p.verdict, named.detail = p.detail, named.message = p.message, named.hint = p.hint;
+    known.push_back(std::move(named));
+  }
+  if (known.empty()) return;
+  std::erase_if(problems, [&](const Problem& p) {
+    return of_scene(p) && p.severity == Severity::warning && is_about_pixels(p);
+  });
+  for (Problem& p : problems) {
+    if (!of_scene(p) || !(is_about_pixels(p) || p.verdict.starts_with("meta."))) continue;
+    const std::string kind = p.verdict.substr(0, p.verdict.find('.') + 1);
+    const auto alike =
+        std::ranges::find_if(known, [&](const Problem& k) { return k.verdict.starts_with(kind); });
+    const Problem& cause = alike == known.end() ? known.front() : *alike;
+    p.verdict = cause.verdict, p.detail = cause.detail, p.message = cause.message, p.hint = cause.hint;
+  }
+}
+
 }  // namespace
 
 void name_problems(const Run& run, const CoverageCause& cause, Outcome& all) {
-  const DepthStatistics::Name depth = all.depths.name(), color = all.colors.name();
+  const DepthStatistics::Name depth = all.depths.name(),
+                              color = (all.colors.wrong > 0 ? all.colors : all.scene_colors).name();
   const bool coverage_known = !cause.verdict.empty();
   const bool accepted = cause.exact && cause.detail == run.options.accepted_rule;
   std::vector<Problem> kept;
@@ -87,6 +137,8 @@ void name_problems(const Run& run, const CoverageCause& cause, Outcome& all) {
     }
     all.problems.insert(all.problems.begin(), std::move(p));
   }
+  drop_drift_of_wrong_values(all.problems);
+  blame_what_is_known(all.problems);
 }
 
 std::vector<Finding> findings_of(Run& run, const std::vector<Problem>& problems) {

@@ -7,7 +7,7 @@
 namespace farop::conformance {
 
 void Outcome::add(Outcome other) {
-  depths.add(other.depths), colors.add(other.colors);
+  depths.add(other.depths), colors.add(other.colors), scene_colors.add(other.scene_colors);
   worst_depth = std::max(worst_depth, other.worst_depth);
   worst_color = std::max(worst_color, other.worst_color);
   for (Problem& p : other.problems) problems.push_back(std::move(p));

@@ -16,6 +16,8 @@ struct Outcome {
   std::vector<Evidence> evidence;
   DepthStatistics depths;
   ColorStatistics colors;
+  /// Of scenes, whose colours are too alike to tell a wrong one from another polygon's.
+  ColorStatistics scene_colors;
   std::optional<double> worst_depth, worst_color;  ///< nothing: none was measured
   std::vector<PerfResult> perf;
 

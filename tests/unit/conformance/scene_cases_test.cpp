@@ -115,6 +115,41 @@ TEST(Scenes, FailWhereOneOfTheirPolygonsDoes) {
   }
 }
 
+/// Overlapping triangles whose colours are much alike, and vary.
+Drawing smooth_scene() {
+  Drawing d = some_scene();
+  std::erase_if(d.polygons, [](const TestPolygon& p) { return p.size() > 3; });
+  Random random("smooth scene", 0, 1);
+  for (TestPolygon& p : d.polygons) {
+    for (ScreenVertex& v : p) v.r = v.g = v.b = static_cast<std::uint16_t>(random.between(100, 130));
+  }
+  return d;
+}
+
+// Where a wrong colour is another polygon's by chance, or nearly right, smaller pictures know better.
+TEST(Scenes, AddNoSecondCauseToAKnownOne) {
+  const auto flat = [](Drawing d) {
+    for (TestPolygon& p : d.polygons) {
+      for (ScreenVertex& v : p) v.r = p[0].r, v.g = p[0].g, v.b = p[0].b;
+    }
+    return right(d);
+  };
+  CorpusOptions options;
+  options.scenes.push_back({"smooth", 0, "Triangles.", true, smooth_scene});
+  std::vector<Case> corpus = make_corpus(options);
+  std::erase_if(corpus, [](const Case& c) { return !c.deliver && c.group() != "colour/frac"; });
+  const CheckResult result = run_check(corpus, Drawn(flat), {});
+  EXPECT_EQ(verdicts(result), std::vector<std::string>{"colour.flat"});
+  for (const CaseResult& c : result.cases) {
+    if (c.id.starts_with("scene/")) {
+      EXPECT_EQ(c.verdicts, std::vector<std::string>{"colour.flat"}) << c.id;
+    }
+  }
+  // Nothing else to explain it: what the scene shows is told.
+  std::erase_if(corpus, [](const Case& c) { return !c.deliver; });
+  EXPECT_GT(verdicts(run_check(corpus, Drawn(flat), {})).size(), 1u);
+}
+
 TEST(Scenes, ViolateTheRelationThatAFaultBreaks) {
   const auto alone = [](const Draw& draw) {
     std::vector<Case> corpus = scene_corpus();
