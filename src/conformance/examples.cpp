@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <memory>
+#include <set>
+#include <string>
 #include <string_view>
 #include <tuple>
 #include <utility>
@@ -203,6 +205,9 @@ void add_examples(Run& run, Finding& f, std::vector<const Problem*> members) {
   };
   std::ranges::stable_sort(members,
                            [&](const Problem* a, const Problem* b) { return effort(a) < effort(b); });
+  // A case that draws the same several times is one example.
+  std::set<std::string> cases;
+  std::erase_if(members, [&](const Problem* p) { return !cases.insert(p->case_id).second; });
   const bool coverage = f.verdict.starts_with("cov.") || f.verdict.starts_with("fill.");
   const std::unique_ptr<Subject> subject = run.maker.make(0);
   const bool stopped = run.options.interrupted && run.options.interrupted();

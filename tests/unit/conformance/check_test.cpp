@@ -8,6 +8,8 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <set>
+#include <string>
 
 #include "conformance/expectation.h"
 #include "conformance/fill_rules.h"
@@ -194,6 +196,18 @@ TEST(Check, ShrinksExamplesToAFewPolygons) {
   EXPECT_EQ(example.polygons.size(), 2u);
   EXPECT_FALSE(example.flat.empty());
   EXPECT_GT(example.wrong_pixels, 0u);
+}
+
+TEST(Check, ShowsDifferentCasesAsExamples) {
+  Faults faults;
+  faults.test = Faults::Test::none;
+  // Each draws the same two squares, and more, in several orders.
+  const CheckResult result = check_families(faults, {"depth/two", "depth/cross", "abi/frames"});
+  for (const Finding& f : result.findings) {
+    std::set<std::string> cases;
+    for (const Example& e : f.examples) EXPECT_TRUE(cases.insert(e.from_case).second) << e.from_case;
+  }
+  EXPECT_EQ(result.findings.front().examples.size(), 3u);
 }
 
 TEST(Check, ShrinksDepthsThatNobodySees) {
