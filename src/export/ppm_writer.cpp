@@ -11,7 +11,8 @@
 namespace farop {
 namespace {
 
-constexpr std::size_t k_ppm_block = std::size_t{1} << 20;
+/// Rows are written in blocks that stay in the cache.
+constexpr std::size_t k_ppm_block = std::size_t{1} << 17;
 
 bool is_special_file(const std::string& path) {
   std::error_code ec;
@@ -33,10 +34,12 @@ bool is_ppm_path(const std::string& path) {
 
 void write_ppm(const std::string& path, const Framebuffer& picture) {
   OutputFile file(path);
-  std::string block = fmt::format("P6\n{} {}\n255\n", picture.width, picture.height);
+  const std::size_t row = 3 * static_cast<std::size_t>(picture.width);
+  std::string block;
+  block.reserve(k_ppm_block + row);
+  block += fmt::format("P6\n{} {}\n255\n", picture.width, picture.height);
   for (int y = picture.height - 1; y >= 0; --y) {
-    block.append(reinterpret_cast<const char*>(&picture.rgb[3 * picture.pixel(0, y)]),
-                 3 * static_cast<std::size_t>(picture.width));
+    block.append(reinterpret_cast<const char*>(&picture.rgb[3 * picture.pixel(0, y)]), row);
     if (block.size() < k_ppm_block && y > 0) continue;
     file.write(block);
     block.clear();

@@ -51,6 +51,8 @@ class EdgeTable {
   /// Spans are cut to the window.
   EdgeTable(const Window& window, int subpixel_bits) : window_(window), subpixel_bits_(subpixel_bits) {}
 
+  /// Rows below are left out of the polygons loaded from now on.
+  void set_first_row(int row) { window_.y = row; }
   /// Starts a polygon: any number of corners, any coordinates. `corners` must live until the last next_row().
   void load(std::span<const ScreenVertex> corners);
   /// Goes to the next row that an edge crosses, upwards; false behind the last one.

@@ -14,6 +14,11 @@ void FragmentStore::add(std::size_t sample, std::size_t samples, std::int32_t de
   newest_[sample] = static_cast<std::uint32_t>(fragments_.size() - 1);
 }
 
+void FragmentStore::clear() {
+  newest_.clear();
+  fragments_.clear();
+}
+
 Rgb FragmentStore::composite(std::size_t sample, std::int32_t opaque_depth, Rgb behind, Transparency rule) {
   order_.clear();
   for (std::uint32_t f = newest_[sample]; f != k_none; f = fragments_[f].older) {

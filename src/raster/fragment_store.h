@@ -31,6 +31,8 @@ class FragmentStore {
   /// in front. `behind`: colour there.
   Rgb composite(std::size_t sample, std::int32_t opaque_depth, Rgb behind, Transparency rule);
 
+  bool any() const { return !fragments_.empty(); }
+  void clear();
   bool any_at(std::size_t sample) const { return !newest_.empty() && newest_[sample] != k_none; }
 
  private:

@@ -5,30 +5,15 @@
 
 #include "raster/corner_color.h"
 #include "raster/perspective.h"
+#include "raster/ramp.h"
 #include "shading/shade.h"
 
 namespace farop {
-namespace {
-
-/// An attribute along a span, `distance` columns from its left crossing.
-template <class T>
-struct Ramp {
-  Ramp(const T& left, const T& right, double width) : start(left), slope((right - left) * (1 / width)) {}
-  T at(double distance) const { return start + slope * distance; }
-
-  T start, slope;
-};
-
-V3d vector(const Rgb& c) {
-  return {c.r, c.g, c.b};
-}
-
-}  // namespace
 
 LitFragment lit_fragment(const SurfaceLook& look, const ShadingFrame& shading, const V3d& position,
                          const V3d& normal, const V3d& texture) {
   const Shaded lit = shade(look.shader, *look.material, position, normal.normalized(), texture, shading);
-  return {V3f(vector(clamp01(lit.color)) * 255.0), V3f(vector(clamp01(lit.opacity)))};
+  return {V3f(to_vector(clamp01(lit.color)) * 255.0), V3f(to_vector(clamp01(lit.opacity)))};
 }
 
 PolygonFiller::PolygonFiller(const ScreenFrame& frame, SampleBuffer& buffer, const ShadingFrame& shading,
@@ -74,7 +59,7 @@ void PolygonFiller::load_attributes(const FillPolygon& polygon) {
     if (textured_) a.texture = V3d(polygon.textures[i]);
     if (opaque_) continue;
     a.opacity =
-        polygon.opacities.empty() ? vector(polygon.look.material->opacity()) : V3d(polygon.opacities[i]);
+        polygon.opacities.empty() ? to_vector(polygon.look.material->opacity()) : V3d(polygon.opacities[i]);
   }
 }
 
@@ -92,13 +77,14 @@ void PolygonFiller::set_perspective(std::span<Attributes> corners, const Surface
 PolygonFiller::Attributes PolygonFiller::at(const EdgePoint& point) const {
   const Attributes& a = attributes_[point.bottom];
   const Attributes& b = attributes_[point.top];
-  const auto mix = [&](const auto& from, const auto& to) { return from + (to - from) * point.along; };
   Attributes result;
-  result.depth = mix(a.depth, b.depth);
-  result.color = mix(a.color, b.color);
-  if (phong_) result.normal = mix(a.normal, b.normal), result.position = mix(a.position, b.position);
-  if (textured_) result.texture = mix(a.texture, b.texture);
-  if (!opaque_) result.opacity = mix(a.opacity, b.opacity);
+  result.depth = mix(point, a.depth, b.depth);
+  result.color = mix(point, a.color, b.color);
+  if (phong_) {
+    result.normal = mix(point, a.normal, b.normal), result.position = mix(point, a.position, b.position);
+  }
+  if (textured_) result.texture = mix(point, a.texture, b.texture);
+  if (!opaque_) result.opacity = mix(point, a.opacity, b.opacity);
   return result;
 }
 
@@ -107,7 +93,7 @@ class PolygonFiller::OnSpan {
  public:
   OnSpan(const Span& span, const Attributes& left, const Attributes& right)
       : span_(span),
-        depth_(left.depth + 0.5, right.depth + 0.5, span.width),  // not negative: truncation rounds
+        depth_(depth_ramp(left.depth, right.depth, span.width)),
         color_(left.color, right.color, span.width),
         normal_(left.normal, right.normal, span.width),
         position_(left.position, right.position, span.width),

@@ -51,11 +51,11 @@ struct SurfacePoint {
   std::uint32_t material = 0;  ///< 0: the sample's value is a colour
 };
 
-/// What SampleBuffer::words hold of a sample: nothing; the nearest opaque colour, red in the low byte; or
-/// the number of the nearest opaque triangle, whose values the other arrays get later, and k_valued where
-/// they hold them already.
-enum class Words : std::uint8_t { none, colors, numbers };
-constexpr std::uint32_t k_valued = 0xFFFFFFFFu;
+/// What SampleBuffer::words and ::numbers hold of a sample. words: the nearest opaque colour, red in the low
+/// byte. numbers: that of the nearest opaque surface, whose values the other arrays get later, k_valued where
+/// they hold them already, k_background where there is nothing opaque.
+enum class Words : std::uint8_t { none, colors, numbers, both };
+constexpr std::uint32_t k_valued = 0xFFFFFFFFu, k_background = 0xFFFFFFFEu;
 
 template <class T>
 using SampleArray = std::vector<T, tbb::cache_aligned_allocator<T>>;
@@ -75,7 +75,7 @@ struct SampleBuffer {
   FragmentStore fragments;           ///< transparent ones
   MaterialTable materials;
   Words meaning = Words::none;  ///< other than none in tiles only
-  SampleArray<std::uint32_t> words;
+  SampleArray<std::uint32_t> words, numbers;
 
   int width() const { return window.end_x - window.x; }
   int height() const { return window.end_y - window.y; }
@@ -102,12 +102,10 @@ inline std::uint32_t to_word(const V3f& color) {
 
 inline void SampleBuffer::put(std::size_t sample, std::int32_t depth, const V3f& value) {
   depths[sample] = depth;
-  if (meaning == Words::colors) {
-    words[sample] = to_word(value);
-    return;
-  }
+  if (meaning == Words::colors || meaning == Words::both) words[sample] = to_word(value);
+  if (meaning == Words::colors) return;
   values[sample] = value;
-  if (meaning == Words::numbers) words[sample] = k_valued;
+  if (meaning != Words::none) numbers[sample] = k_valued;
 }
 
 }  // namespace farop

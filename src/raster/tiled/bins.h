@@ -7,15 +7,16 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
-#include <memory>
 #include <vector>
+
+#include "raster/tiled/slabs.h"
 
 namespace farop::tiled {
 
-/// TriangleEntry::z[0] of an entry that is no triangle: a polygon to be drawn one sample at a time, whose
-/// number is in `source`.
-constexpr std::int32_t k_special = -1;
+/// TriangleEntry::z[0] of an entry that is no triangle.
+/// k_special: a polygon to be drawn one sample at a time, whose number is in `source`.
+/// k_spans: pieces of spans (kept_spans.h), `x[1]` of them from `x[0]` on; no sample is nearer than `z[1]`.
+constexpr std::int32_t k_special = -1, k_spans = -2;
 
 struct alignas(64) TriangleEntry {
   std::int32_t x[3], y[3], z[3];  ///< corners a, b, c of Triangle
@@ -23,7 +24,8 @@ struct alignas(64) TriangleEntry {
   std::uint32_t color[3];
   std::uint32_t source;  ///< number of the kept polygon, where there is one
   std::uint32_t batch;   ///< of the frame, in drawing order
-  std::uint32_t portion;
+  std::uint16_t portion;
+  std::uint16_t transparent;  ///< 1: not opaque; `source` has the opacities of a triangle's corners
 };
 
 /// Entries of a tile are chained in blocks.
@@ -42,11 +44,7 @@ class BlockPool {
   std::size_t used_bytes() const { return used_ * sizeof(EntryBlock); }
 
  private:
-  struct Free {
-    void operator()(EntryBlock* slab) const { std::free(slab); }
-  };
-
-  std::vector<std::unique_ptr<EntryBlock[], Free>> slabs_;
+  std::vector<Slab> slabs_;
   std::size_t used_ = 0;                ///< blocks
   std::size_t slab_ = 0, in_slab_ = 0;  ///< where the next block comes from
 };

@@ -9,6 +9,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstring>
 #include <type_traits>
@@ -163,7 +164,7 @@ HWY_INLINE Columns cross(DoubleVector row, const EdgeConstants& left, const Edge
 }
 
 /// Sets up entries `lane` .. `lane` + k_lanes - 1 of a block.
-HWY_INLINE void set_up_lanes(const TileTask& task, const Group& block, bool numbered, int lane, SetUp& out) {
+HWY_INLINE void set_up_lanes(const TileTask& task, const Group& block, bool colors, int lane, SetUp& out) {
   const int bits = task.subpixel_bits;
   const auto ints = [lane](const std::int32_t* p) { return hn::Load(di, p + lane); };
   const IntVector ax = ints(block.x[0]), bx = ints(block.x[1]), cx = ints(block.x[2]);
@@ -269,7 +270,7 @@ HWY_INLINE void set_up_lanes(const TileTask& task, const Group& block, bool numb
       at_row = hn::Add(at_row, p.step_y);
     }
   }
-  if (numbered) return;
+  if (!colors) return;
   const WordVector start_x = hn::BitCast(dw, from_tile_x), start_y = hn::BitCast(dw, from_tile_y);
   const WordVector byte = hn::Set(dw, 255u);
   const auto words = [lane](const std::uint32_t* p) { return hn::Load(dw, p + lane); };
@@ -399,8 +400,11 @@ class Merger {
   int count_ = 0;
 };
 
+/// What is written of opaque samples beside their depths.
+enum class Writes : std::uint8_t { colors, numbers, both };
+
 /// One triangle after another into a tile.
-template <bool k_numbered>
+template <Writes k_writes>
 class Drawer {
  public:
   explicit Drawer(const TileTask& task) : task_(task) {}
@@ -409,13 +413,15 @@ class Drawer {
     Merger merger(bins, count);
     const TriangleEntry* entries[k_group];
     for (int n = merger.next(entries); n > 0; n = merger.next(entries)) {
-      if (k_numbered) std::copy_n(entries, n, task_.entries + first_number_);
+      if (k_numbers) std::copy_n(entries, n, task_.entries + first_number_);
       draw_group(entries, n);
       first_number_ += static_cast<std::uint32_t>(n);
     }
   }
 
  private:
+  static constexpr bool k_colors = k_writes != Writes::numbers, k_numbers = k_writes != Writes::colors;
+
   void draw_group(const TriangleEntry* const* entries, int count) {
     for (int i = 0; i < count; ++i) {
       const TriangleEntry& e = *entries[i];
@@ -425,20 +431,29 @@ class Drawer {
       }
     }
     const std::int32_t farthest = farthest_of_tile();
-    for (int lane = 0; lane < count; lane += k_lanes) set_up_lanes(task_, group_, k_numbered, lane, s_);
+    for (int lane = 0; lane < count; lane += k_lanes) set_up_lanes(task_, group_, k_colors, lane, s_);
     for (int i = 0; i < count; ++i) {
       if (group_.z[0][i] == k_special) {
         draw_rows();
         task_.special(task_.context, *entries[i]);
         continue;
       }
+      if (group_.z[0][i] == k_spans) {
+        if (group_.z[1][i] >= farthest) continue;
+        draw_rows();
+        draw_spans(*entries[i]);
+        continue;
+      }
       if (s_.nearest[i] >= farthest) continue;
       const int rows = s_.end_row[i] - s_.first_row[i], columns = s_.end_column[i] - s_.first_column[i];
-      if (rows <= k_tiny_rows && columns <= k_tiny_columns) {
+      if (k_numbers && entries[i]->transparent != 0) {
+        draw_rows();
+        if (rows > 0 && columns > 0) draw_strips<true>(i);
+      } else if (rows <= k_tiny_rows && columns <= k_tiny_columns) {
         if (rows > 0 && columns > 0) add_tiny(i);
       } else if (rows > 0 && columns > 0) {
         draw_rows();
-        draw_strips(i);
+        draw_strips<false>(i);
       }
     }
     draw_rows();
@@ -451,7 +466,7 @@ class Drawer {
     std::int32_t sample;  ///< of the tile, the first one covered
     std::int32_t count;
   };
-  /// What a triangle has at a sample, and how it grows along the lanes; colours unless numbered.
+  /// What a triangle has at a sample, and how it grows along the lanes.
   struct Lanes {
     WideDepths depth;
     WideWordVector color[3];
@@ -463,7 +478,7 @@ class Drawer {
     const LongVector first = multiples(step);
     for (int k = 0; k < k_wide_parts; ++k)
       lanes.depth.part[k] = hn::Add(first, hn::Set(dl, k * k_lanes * step));
-    if (!k_numbered) {
+    if (k_colors) {
       const WideWordVector numbers = hn::Iota(dww, 0);
       for (int c = 0; c < 3; ++c) lanes.color[c] = hn::Mul(numbers, hn::Set(dww, s_.color_x[c][i]));
     }
@@ -536,12 +551,12 @@ class Drawer {
       const Lanes lanes = lanes_of(i);
       const std::uint32_t color[3] = {s_.tiny_color[0][row.slot], s_.tiny_color[1][row.slot],
                                       s_.tiny_color[2][row.slot]};
-      draw_row<k_tiny_columns>(i, row.sample, row.count, depths[row.slot], color, lanes);
+      draw_row<false, k_tiny_columns>(i, row.sample, row.count, depths[row.slot], color, lanes);
     }
   }
 
   // `count` samples, k_most at most, from one on whose values are given.
-  template <int k_most>
+  template <bool k_transparent, int k_most>
   HWY_INLINE void draw_row(int i, int sample, int count, std::int64_t depth, const std::uint32_t (&color)[3],
                            const Lanes& lanes) {
     for (int x = 0; x < k_most; x += k_wide) {
@@ -549,11 +564,12 @@ class Drawer {
       const auto step = static_cast<std::uint32_t>(x);
       const std::uint32_t there[3] = {color[0] + step * s_.color_x[0][i], color[1] + step * s_.color_x[1][i],
                                       color[2] + step * s_.color_x[2][i]};
-      draw_vector(i, sample + x, count - x, depth + to_upper(x * s_.depth_x[i]), there, lanes);
+      draw_vector<k_transparent>(i, sample + x, count - x, depth + to_upper(x * s_.depth_x[i]), there, lanes);
     }
   }
 
   // `count` samples, k_wide at most.
+  template <bool k_transparent>
   HWY_INLINE void draw_vector(int i, int sample, int count, std::int64_t depth_there,
                               const std::uint32_t (&color_there)[3], const Lanes& lanes) {
     std::int32_t* const depth = task_.depth + sample;
@@ -563,16 +579,97 @@ class Drawer {
     }
     const WideIntVector z = whole(fixed), before = hn::LoadU(dwi, depth);
     const auto passes = hn::And(hn::Lt(hn::Iota(dwi, 0), hn::Set(dwi, count)), hn::Lt(z, before));
-    hn::StoreU(hn::IfThenElse(passes, z, before), dwi, depth);
-    WideWordVector value;
-    if (k_numbered) {
-      value = hn::Set(dww, first_number_ + static_cast<std::uint32_t>(i));
-    } else {
-      const auto channel = [&](int c) { return hn::Add(hn::Set(dww, color_there[c]), lanes.color[c]); };
-      value = pack(channel(0), channel(1), channel(2));
+    const std::uint32_t number = first_number_ + static_cast<std::uint32_t>(i);
+    if (k_transparent) {
+      add_fragments(dwi, passes, z, number, sample);
+      return;
     }
-    std::uint32_t* const word = task_.word + sample;
-    hn::StoreU(hn::IfThenElse(hn::RebindMask(dww, passes), value, hn::LoadU(dww, word)), dww, word);
+    hn::StoreU(hn::IfThenElse(passes, z, before), dwi, depth);
+    const auto put = [&](std::uint32_t* to, WideWordVector value) {
+      hn::StoreU(hn::IfThenElse(hn::RebindMask(dww, passes), value, hn::LoadU(dww, to)), dww, to);
+    };
+    if (k_colors) {
+      const auto channel = [&](int c) { return hn::Add(hn::Set(dww, color_there[c]), lanes.color[c]); };
+      put(task_.word + sample, pack(channel(0), channel(1), channel(2)));
+    }
+    if (k_numbers) put(task_.number + sample, hn::Set(dww, number));
+  }
+
+  // Where `passes`, of the samples from `sample` on.
+  template <class D, class Mask>
+  HWY_INLINE void add_fragments(D d, Mask passes, hn::Vec<D> z, std::uint32_t number, int sample) {
+    alignas(64) std::int32_t depths[hn::MaxLanes(D())];
+    alignas(8) std::uint8_t bits[8] = {};
+    if (hn::StoreMaskBits(d, passes, bits) == 0) return;
+    hn::Store(z, d, depths);
+    unsigned rest = bits[0] | static_cast<unsigned>(bits[1]) << 8;
+    for (; rest != 0; rest &= rest - 1) {
+      const int lane = std::countr_zero(rest);
+      task_.fragments->add({number, depths[lane], static_cast<std::uint32_t>(sample + lane)});
+    }
+  }
+
+  // Pieces of spans, by the formulas of PolygonFiller::OnSpan.
+  void draw_spans(const TriangleEntry& entry) {
+    const KeptSpans& kept = *task_.spans[entry.portion];
+    const auto first = static_cast<std::uint32_t>(entry.x[0]), count = static_cast<std::uint32_t>(entry.x[1]);
+    const std::uint32_t numbers = k_piece_bit | std::uint32_t{entry.portion} << k_portion_shift;
+    const bool transparent = k_numbers && entry.transparent != 0;
+    for (std::uint32_t p = first; p < first + count; ++p) {
+      const SpanPiece& piece = kept.pieces[p];
+      const KeptSpan& span = kept.spans[piece.span];
+      if (transparent) {
+        draw_piece<true>(piece, span, numbers | p);
+      } else if (span.color.slope == V3d(0, 0, 0)) {
+        draw_piece<false, true>(piece, span, numbers | p);
+      } else {
+        draw_piece<false>(piece, span, numbers | p);
+      }
+    }
+  }
+
+  template <bool k_transparent, bool k_one_color = false>
+  HWY_INLINE void draw_piece(const SpanPiece& piece, const KeptSpan& span, std::uint32_t number) {
+    const DoubleVector rest = hn::Set(df, span.left_rest);
+    const DoubleVector z_start = hn::Set(df, span.depth.start), z_slope = hn::Set(df, span.depth.slope);
+    const DoubleVector half = hn::Set(df, 0.5), most = hn::Set(df, 255.0);
+    const hn::Rebind<float, Doubles> dfl;
+    const double left = static_cast<double>(task_.x) - span.left_column;
+    const int row = k_tile * piece.row;
+    for (int x = piece.first; x < piece.end; x += k_lanes) {
+      const int sample = row + x;
+      const DoubleVector distance = hn::Add(hn::Add(hn::Iota(df, 0), hn::Set(df, left + x)), rest);
+      const auto along = [&](DoubleVector start, DoubleVector slope) {
+        return hn::Add(start, hn::Mul(slope, distance));
+      };
+      const IntVector z = hn::DemoteTo(di, along(z_start, z_slope));
+      std::int32_t* const depth = task_.depth + sample;
+      const IntVector before = hn::LoadU(di, depth);
+      const auto passes = hn::And(hn::Lt(lane_numbers(), hn::Set(di, piece.end - x)), hn::Lt(z, before));
+      if (k_transparent) {
+        add_fragments(di, passes, z, number, sample);
+        continue;
+      }
+      if (hn::AllFalse(di, passes)) continue;
+      hn::StoreU(hn::IfThenElse(passes, z, before), di, depth);
+      const auto put = [&](std::uint32_t* to, WordVector value) {
+        hn::StoreU(hn::IfThenElse(hn::RebindMask(dw, passes), value, hn::LoadU(dw, to)), dw, to);
+      };
+      if (k_numbers) put(task_.number + sample, hn::Set(dw, number));
+      if (!k_colors) continue;
+      const auto channel = [&](double start, double slope) {  // to_byte()
+        DoubleVector c = k_one_color ? hn::Set(df, start) : along(hn::Set(df, start), hn::Set(df, slope));
+        c = hn::PromoteTo(df, hn::DemoteTo(dfl, c));
+        return hn::BitCast(dw, hn::DemoteTo(di, hn::Min(hn::Add(c, half), most)));
+      };
+      const WordVector r = channel(span.color.start.x, span.color.slope.x);
+      const WordVector g = channel(span.color.start.y, span.color.slope.y);
+      const WordVector b = channel(span.color.start.z, span.color.slope.z);
+      put(task_.word + sample, hn::Or(r, hn::Or(hn::ShiftLeft<8>(g), hn::ShiftLeft<16>(b))));
+    }
+    if (k_transparent) return;
+    for (int x = piece.first & ~7; x < piece.end; x += 8)
+      has_drawn(k_far_blocks * (piece.row >> 3) + (x >> 3), 1);
   }
 
   // The triangle is behind all of the 8 x 8 block at (x, y), as far as it can be known in the block.
@@ -585,6 +682,7 @@ class Drawer {
            task_.far[k_far_blocks * (y >> 3) + (x >> 3)];
   }
 
+  template <bool k_transparent>
   void draw_strips(int i) {
     const int first_row = s_.first_row[i], end_row = s_.end_row[i];
     const Lanes lanes = lanes_of(i);
@@ -593,11 +691,13 @@ class Drawer {
       bool seen = false;
       for (int x = left; x < right && !seen; x += 8) seen = !is_hidden(i, x, strip);
       if (!seen) continue;
-      draw_strip(i, strip, std::max(first_row - strip, 0), std::min(end_row - strip, 8), lanes);
+      draw_strip<k_transparent>(i, strip, std::max(first_row - strip, 0), std::min(end_row - strip, 8),
+                                lanes);
     }
   }
 
   // Rows strip + first .. strip + end - 1.
+  template <bool k_transparent>
   HWY_INLINE void draw_strip(int i, int strip, int first, int end, const Lanes& lanes) {
     alignas(64) std::int32_t starts[8], ends[8];
     alignas(64) std::int64_t depths[8];
@@ -630,7 +730,7 @@ class Drawer {
           hn::Add(hn::Set(dl, depth), hn::Add(multiply(hn::PromoteTo(dl, start), hn::Set(dl, step_x)),
                                               multiply(hn::PromoteTo(dl, row), hn::Set(dl, step_y))));
       hn::Store(hn::ShiftLeft<k_to_upper>(there), dl, depths + r);
-      for (int c = 0; c < 3 && !k_numbered; ++c) {
+      for (int c = 0; c < 3 && k_colors; ++c) {
         const std::uint32_t down = s_.color_y[c][i];
         hn::Store(hn::Add(hn::Set(dw, s_.color[c][i] + static_cast<std::uint32_t>(strip) * down),
                           hn::Add(hn::Mul(hn::BitCast(dw, start), hn::Set(dw, s_.color_x[c][i])),
@@ -643,7 +743,8 @@ class Drawer {
     const auto draw_rows_of = [&](auto most) {
       for (int r = first; r < end; ++r) {
         const std::uint32_t color[3] = {colors[0][r], colors[1][r], colors[2][r]};
-        draw_row<most()>(i, k_tile * (strip + r) + starts[r], ends[r] - starts[r], depths[r], color, lanes);
+        draw_row<k_transparent, most()>(i, k_tile * (strip + r) + starts[r], ends[r] - starts[r], depths[r],
+                                        color, lanes);
       }
     };
     if (widest_row <= 16) {
@@ -655,7 +756,7 @@ class Drawer {
     } else {
       draw_rows_of(std::integral_constant<int, 64>());
     }
-    if (end - first >= k_worth) {
+    if (!k_transparent && end - first >= k_worth) {
       for (int x = left & ~7; x < right; x += 8) look_up_far(k_far_blocks * (strip >> 3) + (x >> 3));
     }
   }
@@ -676,16 +777,19 @@ class Drawer {
 };
 
 void draw_bins_here(const TileTask& task, const Bin* const* bins, int count) {
-  if (task.numbered) {
-    Drawer<true>(task).draw(bins, count);
+  if (task.number == nullptr) {
+    Drawer<Writes::colors>(task).draw(bins, count);
+  } else if (task.word == nullptr) {
+    Drawer<Writes::numbers>(task).draw(bins, count);
   } else {
-    Drawer<false>(task).draw(bins, count);
+    Drawer<Writes::both>(task).draw(bins, count);
   }
 }
 
-void clear_tile_here(const TileTask& task, std::uint32_t word) {
+void clear_tile_here(const TileTask& task, std::uint32_t word, std::uint32_t number) {
   std::fill_n(task.depth, k_tile * k_tile + k_tile_padding, task.empty_depth);
-  std::fill_n(task.word, k_tile * k_tile + k_tile_padding, word);
+  if (task.word != nullptr) std::fill_n(task.word, k_tile * k_tile + k_tile_padding, word);
+  if (task.number != nullptr) std::fill_n(task.number, k_tile * k_tile + k_tile_padding, number);
   std::fill_n(task.far, k_far_blocks * k_far_blocks, task.empty_depth);
   if (task.width == k_tile && task.height == k_tile) return;
   for (int y = 0; y < k_tile; ++y) {
@@ -729,8 +833,8 @@ HWY_EXPORT(clear_tile_here);
 HWY_EXPORT(draw_bins_here);
 HWY_EXPORT(words_to_rgb_here);
 
-void clear_tile(const TileTask& task, std::uint32_t word) {
-  HWY_DYNAMIC_DISPATCH(clear_tile_here)(task, word);
+void clear_tile(const TileTask& task, std::uint32_t word, std::uint32_t number) {
+  HWY_DYNAMIC_DISPATCH(clear_tile_here)(task, word, number);
 }
 
 void draw_bins(const TileTask& task, const Bin* const* bins, int count) {

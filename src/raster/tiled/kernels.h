@@ -12,8 +12,10 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "raster/tiled/bins.h"
+#include "raster/tiled/kept_spans.h"
 
 namespace farop::tiled {
 
@@ -25,6 +27,30 @@ constexpr int k_far_blocks = k_tile / 8;
 /// Bins that can be drawn together.
 constexpr int k_max_bins = 8;
 
+/// Numbers of surfaces at samples. Of triangles: their places in drawing order in the tile, from 0. Of pieces
+/// of spans: this bit, the portion that has them, and their place there.
+constexpr std::uint32_t k_piece_bit = 1u << 31;
+constexpr int k_portion_shift = 28;
+
+/// Something transparent at a sample that was not behind anything opaque when it was drawn.
+struct PendingFragment {
+  std::uint32_t number;
+  std::int32_t depth;
+  std::uint32_t sample;
+};
+
+/// In drawing order.
+class PendingFragments {
+ public:
+  // Defined here, outside of what is compiled for particular processors.
+  void add(const PendingFragment& fragment) { all_.push_back(fragment); }
+  const std::vector<PendingFragment>& all() const { return all_; }
+  void clear() { all_.clear(); }
+
+ private:
+  std::vector<PendingFragment> all_;
+};
+
 /// A tile and what is drawn into it. Arrays have k_tile * k_tile + k_tile_padding samples.
 struct TileTask {
   int x = 0, y = 0;           ///< of its first sample in the frame
@@ -32,19 +58,20 @@ struct TileTask {
   int subpixel_bits = 0;
   std::int32_t empty_depth = 0;
   std::int32_t* depth = nullptr;  ///< 64-byte aligned
-  /// Colours, red lowest, of the nearest opaque triangles; or with `numbered` their numbers: their places in
-  /// drawing order, from 0.
-  std::uint32_t* word = nullptr;
-  std::int32_t* far = nullptr;  ///< k_far_blocks^2: no depth in the 8 x 8 block is farther
-  bool numbered = false;
-  const TriangleEntry** entries = nullptr;  ///< numbered: gets the entry of every number
+  // Of the nearest opaque surfaces; one of them or both.
+  std::uint32_t* word = nullptr;            ///< colours, red lowest
+  std::uint32_t* number = nullptr;          ///< without it nothing transparent can be drawn
+  std::int32_t* far = nullptr;              ///< k_far_blocks^2: no depth in the 8 x 8 block is farther
+  const TriangleEntry** entries = nullptr;  ///< with `number`: gets the entry of every triangle's
+  const KeptSpans* spans[k_max_bins] = {};  ///< of portions
+  PendingFragments* fragments = nullptr;    ///< gets those drawn
   /// Draws the polygon that an entry stands for, into depth and word.
   void (*special)(void* context, const TriangleEntry& entry) = nullptr;
   void* context = nullptr;
 };
 
-/// Empties the tile: `empty_depth`, and below every depth outside the frame; word everywhere.
-void clear_tile(const TileTask& task, std::uint32_t word);
+/// Empties the tile: `empty_depth`, and below every depth outside the frame; word and number everywhere.
+void clear_tile(const TileTask& task, std::uint32_t word, std::uint32_t number);
 /// Draws the entries of `count` bins, in the order of their batches and within a batch bin after bin.
 void draw_bins(const TileTask& task, const Bin* const* bins, int count);
 /// `count` words as bytes r g b.

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "raster/corner_color.h"
+#include "shading/material.h"
 
 namespace farop::tiled {
 namespace {
@@ -61,19 +62,24 @@ void Portion::start(const TileGrid& grid, DrawMode mode, int color_resolution, s
   bins_.assign(static_cast<std::size_t>(grid.count()), {});
   kept_.clear();
   kept_bytes_ = 0;
+  spans_.clear();
+  span_sorter_.start(grid);
   has_shaders_ = false;
   last_look_ = {}, last_opaque_ = true, last_invisible_ = false;
 }
 
-std::size_t Portion::add(const ScreenPolygonBatch& batch, std::uint32_t number, std::size_t first,
-                         std::size_t end, std::size_t byte_limit) {
+Progress Portion::add(const ScreenPolygonBatch& batch, std::uint32_t number, Progress first, std::size_t end,
+                      const PortionLimits& limits) {
   batch_ = number;
-  for (std::size_t i = first; i < end; ++i) {
-    if (bytes() > byte_limit) return i;
-    const ScreenPolygonRecord& record = batch.polygons[i];
-    if (!add_simple_triangle(batch, record)) add_polygon(batch, record);
+  limits_ = limits;
+  for (; first.polygon < end; ++first.polygon) {
+    if (bytes() > limits.all) return first;
+    const ScreenPolygonRecord& record = batch.polygons[first.polygon];
+    if (first.row == 0 && add_simple_triangle(batch, record)) continue;
+    first.row = add_polygon(batch, record, first.row);
+    if (first.row != 0) return first;
   }
-  return end;
+  return first;
 }
 
 inline void Portion::add_entry(Bin& bin, const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c,
@@ -83,7 +89,8 @@ inline void Portion::add_entry(Bin& bin, const ScreenVertex& a, const ScreenVert
   e.y[0] = a.y, e.y[1] = b.y, e.y[2] = c.y;
   e.z[0] = a.z, e.z[1] = b.z, e.z[2] = c.z;
   e.color[0] = payload.color[0], e.color[1] = payload.color[1], e.color[2] = payload.color[2];
-  e.source = payload.source, e.batch = batch_, e.portion = number_;
+  e.source = payload.source, e.batch = batch_;
+  e.portion = static_cast<std::uint16_t>(number_), e.transparent = payload.transparent;
 }
 
 // The triangle that most are; false, and nothing happens, for all others.
@@ -139,33 +146,27 @@ bool Portion::add_simple_triangle(const ScreenPolygonBatch& batch, const ScreenP
   return true;
 }
 
-void Portion::add_polygon(const ScreenPolygonBatch& batch, const ScreenPolygonRecord& record) {
+// Returns the row to go on with, 0: all was taken.
+int Portion::add_polygon(const ScreenPolygonBatch& batch, const ScreenPolygonRecord& record, int first_row) {
   const SurfaceLook look{record.material, record.shader};
   if (look != last_look_) {
     last_look_ = look;
     last_opaque_ = look.is_opaque(), last_invisible_ = look.is_invisible();
     has_shaders_ = has_shaders_ || look.shader != nullptr;
   }
-  if (last_invisible_ || record.vertex_count == 0) return;
+  if (last_invisible_ || record.vertex_count == 0) return 0;
   const std::span<const ScreenVertex> corners = batch.corners(record);
+  const bool on_planes = last_opaque_ || mode_ != DrawMode::phong;
   const std::optional<std::uint32_t> center =
-      last_opaque_ ? fan_center(corners) : std::optional<std::uint32_t>();
+      on_planes ? fan_center(corners) : std::optional<std::uint32_t>();
   if (!center) {
-    if (all_corners_.size() < corners.size()) {
-      all_corners_.resize(corners.size());
-      std::iota(all_corners_.begin(), all_corners_.end(), 0u);
-    }
-    add_special(batch, record, part(all_corners_, 0, corners.size()));
-    return;
+    return add_by_scan_lines(batch, record, all_corners(corners.size()), first_row, limits_.all);
   }
   TrianglePayload payload;
+  payload.transparent = last_opaque_ ? 0 : 1;
   std::uint32_t first_kept = 0;
   if (mode_ == DrawMode::phong) {
-    if (all_corners_.size() < corners.size()) {
-      all_corners_.resize(corners.size());
-      std::iota(all_corners_.begin(), all_corners_.end(), 0u);
-    }
-    payload.source = keep(batch, record, part(all_corners_, 0, corners.size()));
+    payload.source = keep(batch, record, all_corners(corners.size()));
     first_kept = kept_.polygons.back().first;
   } else if (mode_ == DrawMode::flat) {
     payload.color[0] = payload.color[1] = payload.color[2] = color_word(corners.front());
@@ -184,6 +185,15 @@ void Portion::add_polygon(const ScreenPolygonBatch& batch, const ScreenPolygonRe
     }
     add_triangle(batch, record, t, payload, of_triangle);
   }
+  return 0;
+}
+
+std::span<const std::uint32_t> Portion::all_corners(std::size_t count) {
+  if (all_corners_.size() < count) {
+    all_corners_.resize(count);
+    std::iota(all_corners_.begin(), all_corners_.end(), 0u);
+  }
+  return part(all_corners_, 0, count);
 }
 
 std::uint32_t Portion::color_word(const ScreenVertex& v) const {
@@ -223,15 +233,15 @@ inline Portion::Samples Portion::samples_of(const Triangle& t) const {
 }
 
 void Portion::add_triangle(const ScreenPolygonBatch& batch, const ScreenPolygonRecord& record,
-                           const Triangle& t, const TrianglePayload& payload,
-                           const std::uint32_t (&numbers)[3]) {
+                           const Triangle& t, TrianglePayload payload, const std::uint32_t (&numbers)[3]) {
   const Samples samples = samples_of(t);
   if (samples.empty()) return;
-  if (is_plane_triangle(t, grid_->subpixel_bits)) {
-    add_to_tiles(t, payload, samples);
-  } else {
-    add_special(batch, record, numbers);
+  if (!is_plane_triangle(t, grid_->subpixel_bits)) {
+    add_by_scan_lines(batch, record, numbers, 0, std::numeric_limits<std::size_t>::max());
+    return;
   }
+  if (payload.transparent != 0) payload.source = keep(batch, record, numbers);
+  add_to_tiles(t, payload, samples);
 }
 
 void Portion::add_to_tiles(const Triangle& t, const TrianglePayload& payload, const Samples& samples) {
@@ -246,11 +256,14 @@ void Portion::add_to_tiles(const Triangle& t, const TrianglePayload& payload, co
       if (misses(t.a, t.b) || misses(t.b, t.c) || misses(t.c, t.a)) return;
     }
     add_entry(bin, t.a, t.b, t.c, payload);
+    bin.has_transparent = bin.has_transparent || payload.transparent != 0;
   });
 }
 
-void Portion::add_special(const ScreenPolygonBatch& batch, const ScreenPolygonRecord& record,
-                          std::span<const std::uint32_t> numbers) {
+// Returns the row to go on with when more than `byte_limit` bytes are in use, else 0.
+int Portion::add_by_scan_lines(const ScreenPolygonBatch& batch, const ScreenPolygonRecord& record,
+                               std::span<const std::uint32_t> numbers, int first_row,
+                               std::size_t byte_limit) {
   const std::span<const ScreenVertex> corners = batch.corners(record);
   std::int32_t low_x = corners[numbers[0]].x, high_x = low_x, low_y = corners[numbers[0]].y, high_y = low_y;
   for (const std::uint32_t i : numbers) {
@@ -258,15 +271,61 @@ void Portion::add_special(const ScreenPolygonBatch& batch, const ScreenPolygonRe
     low_y = std::min(low_y, corners[i].y), high_y = std::max(high_y, corners[i].y);
   }
   const Samples samples = samples_of(low_x, high_x, low_y, high_y);
-  if (samples.empty()) return;
+  if (samples.empty()) return 0;
+  if (mode_ == DrawMode::phong) {
+    add_special(batch, record, numbers, samples);
+    return 0;
+  }
+  load_corners(batch, record, numbers);
+  if (bytes() + span_sorter_.most_bytes(corners_) > limits_.spans) {
+    add_special(batch, record, numbers, samples);
+    return 0;
+  }
+  const auto nearer = [](const ScreenVertex& a, const ScreenVertex& b) { return a.z < b.z; };
+  const std::int32_t nearest = std::min_element(corners_.begin(), corners_.end(), nearer)->z;
+  const std::size_t others = bytes() - spans_.bytes();
+  const std::size_t room = byte_limit - std::min(others, byte_limit);
+  return span_sorter_.sort(corners_, opacities_, first_row, room, spans_,
+                           [&](int tile, std::uint32_t first, std::uint32_t count) {
+                             TriangleEntry& e = add_other(bins_[static_cast<std::size_t>(tile)], k_spans);
+                             e.x[0] = static_cast<std::int32_t>(first);
+                             e.x[1] = static_cast<std::int32_t>(count);
+                             e.z[1] = nearest;
+                           });
+}
+
+// An entry that is no triangle, of the surface that polygons are taken from.
+TriangleEntry& Portion::add_other(Bin& bin, std::int32_t kind) {
+  TriangleEntry& e = bin.add(pool_);
+  e = {};
+  e.z[0] = kind;
+  e.batch = batch_, e.portion = static_cast<std::uint16_t>(number_);
+  e.transparent = last_opaque_ ? 0 : 1;
+  bin.has_transparent = bin.has_transparent || !last_opaque_;
+  return e;
+}
+
+// What PolygonFiller interpolates of a polygon by scan lines.
+void Portion::load_corners(const ScreenPolygonBatch& batch, const ScreenPolygonRecord& record,
+                           std::span<const std::uint32_t> numbers) {
+  const std::span<const ScreenVertex> corners = batch.corners(record);
+  corners_.clear(), opacities_.clear();
+  for (const std::uint32_t i : numbers) {
+    ScreenVertex v = corners[i];
+    const ScreenVertex& color = corners[mode_ == DrawMode::flat ? 0 : i];
+    v.r = to_8_bits(color.r, color_resolution_), v.g = to_8_bits(color.g, color_resolution_);
+    v.b = to_8_bits(color.b, color_resolution_);
+    corners_.push_back(v);
+    if (last_opaque_) continue;
+    opacities_.push_back(batch.opacities.empty() ? to_vector(record.material->opacity())
+                                                 : V3d(batch.opacities[record.first_vertex + i]));
+  }
+}
+
+void Portion::add_special(const ScreenPolygonBatch& batch, const ScreenPolygonRecord& record,
+                          std::span<const std::uint32_t> numbers, const Samples& samples) {
   const std::uint32_t number = keep(batch, record, numbers);
-  for_each_tile(samples, [&](Bin& bin, int, int, bool) {
-    TriangleEntry& e = bin.add(pool_);
-    e = {};
-    e.z[0] = k_special;
-    e.source = number, e.batch = batch_, e.portion = number_;
-    bin.has_transparent = bin.has_transparent || !last_opaque_;
-  });
+  for_each_tile(samples, [&](Bin& bin, int, int, bool) { add_other(bin, k_special).source = number; });
 }
 
 std::uint32_t Portion::keep(const ScreenPolygonBatch& batch, const ScreenPolygonRecord& record,

@@ -12,6 +12,8 @@
 #include "raster/polygon_filler.h"
 #include "raster/tiled/bins.h"
 #include "raster/tiled/grid.h"
+#include "raster/tiled/kept_spans.h"
+#include "raster/tiled/span_sorter.h"
 
 namespace farop::tiled {
 
@@ -38,6 +40,19 @@ struct KeptPolygons {
 struct TrianglePayload {
   std::uint32_t color[3] = {0, 0, 0};
   std::uint32_t source = 0;
+  std::uint16_t transparent = 0;
+};
+
+/// How far a batch has been taken.
+struct Progress {
+  std::size_t polygon = 0;  ///< the first that was not, or not all of it,
+  int row = 0;              ///< from this row of the frame on
+};
+
+/// Bytes that may be in use.
+struct PortionLimits {
+  std::size_t all = 0;    ///< adding stops when there are more
+  std::size_t spans = 0;  ///< polygons whose spans might take more are not cut into tiles
 };
 
 /// Filled by one thread, read by all when tiles are drawn.
@@ -45,14 +60,15 @@ class Portion {
  public:
   /// Empty, for a new frame or after what it had was drawn. `color_resolution` is the frame's.
   void start(const TileGrid& grid, DrawMode mode, int color_resolution, std::uint32_t number);
-  /// Takes polygons `first` .. `end` - 1 of the frame's batch `number`; stops when more than `byte_limit`
-  /// bytes are in use. Returns the first polygon not taken.
-  std::size_t add(const ScreenPolygonBatch& batch, std::uint32_t number, std::size_t first, std::size_t end,
-                  std::size_t byte_limit);
+  /// Takes polygons `first` .. `end` - 1 of the frame's batch `number` until a limit is reached; returns how
+  /// far it came.
+  Progress add(const ScreenPolygonBatch& batch, std::uint32_t number, Progress first, std::size_t end,
+               const PortionLimits& limits);
 
   const Bin& bin(int tile) const { return bins_[static_cast<std::size_t>(tile)]; }
   const KeptPolygons& kept() const { return kept_; }
-  std::size_t bytes() const { return pool_.used_bytes() + kept_bytes_; }
+  const KeptSpans& spans() const { return spans_; }
+  std::size_t bytes() const { return pool_.used_bytes() + kept_bytes_ + spans_.bytes(); }
   bool has_shaders() const { return has_shaders_; }
 
  private:
@@ -62,14 +78,20 @@ class Portion {
   };
 
   bool add_simple_triangle(const ScreenPolygonBatch& batch, const ScreenPolygonRecord& record);
-  void add_polygon(const ScreenPolygonBatch& batch, const ScreenPolygonRecord& record);
+  int add_polygon(const ScreenPolygonBatch& batch, const ScreenPolygonRecord& record, int first_row);
   void add_entry(Bin& bin, const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c,
                  const TrianglePayload& payload);
   void add_to_tiles(const Triangle& t, const TrianglePayload& payload, const Samples& samples);
   void add_triangle(const ScreenPolygonBatch& batch, const ScreenPolygonRecord& record, const Triangle& t,
-                    const TrianglePayload& payload, const std::uint32_t (&numbers)[3]);
+                    TrianglePayload payload, const std::uint32_t (&numbers)[3]);
+  int add_by_scan_lines(const ScreenPolygonBatch& batch, const ScreenPolygonRecord& record,
+                        std::span<const std::uint32_t> numbers, int first_row, std::size_t byte_limit);
   void add_special(const ScreenPolygonBatch& batch, const ScreenPolygonRecord& record,
-                   std::span<const std::uint32_t> numbers);
+                   std::span<const std::uint32_t> numbers, const Samples& samples);
+  TriangleEntry& add_other(Bin& bin, std::int32_t kind);
+  std::span<const std::uint32_t> all_corners(std::size_t count);
+  void load_corners(const ScreenPolygonBatch& batch, const ScreenPolygonRecord& record,
+                    std::span<const std::uint32_t> numbers);
   std::uint32_t keep(const ScreenPolygonBatch& batch, const ScreenPolygonRecord& record,
                      std::span<const std::uint32_t> numbers);
   Samples samples_of(std::int32_t low_x, std::int32_t high_x, std::int32_t low_y, std::int32_t high_y) const;
@@ -85,11 +107,17 @@ class Portion {
   std::vector<Bin> bins_;
   KeptPolygons kept_;
   std::size_t kept_bytes_ = 0;
+  KeptSpans spans_;
+  SpanSorter span_sorter_;
+  PortionLimits limits_;
   std::uint32_t number_ = 0, batch_ = 0;
   bool has_shaders_ = false;
   SurfaceLook last_look_;  ///< polygons of a surface come in a row
   bool last_opaque_ = true, last_invisible_ = false;
   std::vector<std::uint32_t> all_corners_;  ///< 0, 1, 2 ...
+  // Of the polygon that is cut into spans.
+  std::vector<ScreenVertex> corners_;
+  std::vector<V3d> opacities_;
 };
 
 }  // namespace farop::tiled

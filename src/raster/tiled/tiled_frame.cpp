@@ -17,6 +17,7 @@
 #include "raster/perspective.h"
 #include "raster/resolve.h"
 #include "raster/tiled/kernels.h"
+#include "raster/tiled/numbered_values.h"
 #include "shading/shader.h"
 
 namespace farop::tiled {
@@ -24,6 +25,8 @@ namespace {
 
 /// Polygons that are worth sorting in parallel.
 constexpr std::size_t k_parallel_polygons = 512;
+/// Corners of polygons that are sorted alone: their spans may have to be drawn in parts.
+constexpr std::uint32_t k_many_corners = 4096;
 
 /// Samples from which on a frame may have a byte of waiting triangles each: an entry a tile alone takes a
 /// quarter of that, and to keep all tiles would take twenty times as much.
@@ -42,6 +45,7 @@ struct Tile {
   SampleArray<std::int32_t> far;
   RasterCounts counts;
   TileTask task;
+  PendingFragments pending;
   std::optional<PolygonFiller> filler;        ///< once something special was drawn
   std::vector<const TriangleEntry*> entries;  ///< by number
 };
@@ -112,32 +116,40 @@ std::size_t TiledFrame::waiting_bytes() const {
 
 void TiledFrame::add(const ScreenPolygonBatch& batch) {
   const std::size_t count = batch.polygons.size();
-  for (std::size_t next = 0; next < count;) {
+  for (Progress next; next.polygon < count;) {
     next = add_some(batch, next);
     if (waiting_bytes() > room_) draw_waiting(nullptr);
   }
 }
 
-// Takes polygons from `next` on until all are taken or there is no room for more; returns the first not
-// taken.
-std::size_t TiledFrame::add_some(const ScreenPolygonBatch& batch, std::size_t next) {
-  const std::size_t left = batch.polygons.size() - next, shares = portions_.size();
+// Takes polygons from `next` on until all are taken or there is no room for more; returns how far it came.
+Progress TiledFrame::add_some(const ScreenPolygonBatch& batch, const Progress& next) {
+  constexpr std::size_t k_no_limit = std::numeric_limits<std::size_t>::max();
+  const std::size_t left = batch.polygons.size() - next.polygon, shares = portions_.size();
   const std::uint32_t number = batches_++;
   // In parallel as many as cannot take more than half of the memory, whatever they cover.
   const std::size_t safe = room_ / 2 / (sizeof(TriangleEntry) * static_cast<std::size_t>(grid_.count()));
-  if (shares == 1 || std::min(left, safe) < k_parallel_polygons) {
+  std::size_t taken = std::min(left, safe);
+  if (shares > 1 && taken >= k_parallel_polygons) {
+    const auto first = batch.polygons.begin() + static_cast<std::ptrdiff_t>(next.polygon);
+    const auto has_many = [](const ScreenPolygonRecord& p) { return p.vertex_count > k_many_corners; };
+    taken = static_cast<std::size_t>(
+        std::find_if(first, first + static_cast<std::ptrdiff_t>(taken), has_many) - first);
+  }
+  if (shares == 1 || taken < k_parallel_polygons) {
     const std::size_t others = waiting_bytes() - portions_[0]->bytes();
     const std::size_t room = room_ - std::min(others, room_);
-    return portions_[0]->add(batch, number, next, batch.polygons.size(), room);
+    const std::size_t end = next.polygon + (taken < std::min(left, safe) ? taken + 1 : left);
+    return portions_[0]->add(batch, number, next, end, {room, k_no_limit});
   }
-  const std::size_t taken = std::min(left, safe), share = (taken + shares - 1) / shares;
+  const std::size_t share = (taken + shares - 1) / shares;
   workers_->run(static_cast<int>(shares), false, [&](int k) {
     const std::size_t first = std::min(static_cast<std::size_t>(k) * share, taken);
     const std::size_t end = std::min(first + share, taken);
-    portions_[static_cast<std::size_t>(k)]->add(batch, number, next + first, next + end,
-                                                std::numeric_limits<std::size_t>::max());
+    portions_[static_cast<std::size_t>(k)]->add(batch, number, {next.polygon + first, 0}, next.polygon + end,
+                                                {k_no_limit, room_ / shares});
   });
-  return next + taken;
+  return {next.polygon + taken, 0};
 }
 
 void TiledFrame::draw_waiting(Framebuffer* picture) {
@@ -153,7 +165,8 @@ void TiledFrame::draw_waiting(Framebuffer* picture) {
       write_background(number, *picture);
       return;
     }
-    const bool numbered = look_.mode == DrawMode::phong || !drawn_.empty() || has_transparent(number);
+    const bool numbered = look_.mode == DrawMode::phong || !drawn_.empty();
+    const Words meaning = numbered ? Words::numbers : has_transparent(number) ? Words::both : Words::colors;
     Tile* tile = &workers_->tile();
     bool begun = false;
     if (!drawn_.empty()) {
@@ -162,9 +175,9 @@ void TiledFrame::draw_waiting(Framebuffer* picture) {
       if (!begun) slot = std::make_unique<Tile>();
       tile = slot.get();
     }
-    if (!begun) begin_tile(*tile, number, numbered);
-    draw_tile(*tile, numbered);
-    if (!early) write_tile(*tile, numbered, *picture);
+    if (!begun) begin_tile(*tile, number, meaning);
+    draw_tile(*tile);
+    if (!early) write_tile(*tile, *picture);
   });
   if (early) start_portions();
 }
@@ -201,19 +214,21 @@ void TiledFrame::finish(Framebuffer& picture) {
   drawn_.clear();
 }
 
-void TiledFrame::begin_tile(Tile& tile, int number, bool numbered) const {
+void TiledFrame::begin_tile(Tile& tile, int number, Words meaning) const {
   constexpr std::size_t k_samples = k_tile * k_tile + k_tile_padding;
   SampleBuffer& b = tile.buffer;
   b.window = grid_.window(number);
   b.stride = k_tile;
   b.empty_depth = static_cast<std::int32_t>(frame_.resolution.z);
   b.depths.resize(k_samples);
-  b.words.resize(k_samples);
-  b.meaning = numbered ? Words::numbers : Words::colors;
-  b.fragments = {};
+  b.meaning = meaning;
+  if (meaning != Words::numbers) b.words.resize(k_samples);
+  if (meaning != Words::colors) b.numbers.resize(k_samples);
+  if (meaning == Words::both) b.values.resize(k_samples);
+  b.fragments.clear();
   b.materials = {};
   b.textures.clear();
-  if (numbered) {
+  if (meaning == Words::numbers) {
     b.values.assign(k_samples, color_of(look_.background));
     b.points.clear();
     if (look_.mode == DrawMode::phong) b.points.resize(k_samples);
@@ -226,12 +241,14 @@ void TiledFrame::begin_tile(Tile& tile, int number, bool numbered) const {
   task.width = b.width(), task.height = b.height();
   task.subpixel_bits = frame_.subpixel_bits;
   task.empty_depth = b.empty_depth;
-  task.depth = b.depths.data(), task.word = b.words.data(), task.far = tile.far.data();
-  task.numbered = numbered;
-  clear_tile(task, numbered ? k_valued : look_.background);
+  task.depth = b.depths.data(), task.far = tile.far.data();
+  task.word = meaning != Words::numbers ? b.words.data() : nullptr;
+  task.number = meaning != Words::colors ? b.numbers.data() : nullptr;
+  task.fragments = &tile.pending;
+  clear_tile(task, look_.background, meaning == Words::numbers ? k_valued : k_background);
 }
 
-void TiledFrame::draw_tile(Tile& tile, bool numbered) const {
+void TiledFrame::draw_tile(Tile& tile) const {
   struct Special {
     Tile& tile;
     const TiledFrame& frame;
@@ -239,6 +256,7 @@ void TiledFrame::draw_tile(Tile& tile, bool numbered) const {
   tile.task.context = &special;
   tile.task.special = [](void* context, const TriangleEntry& entry) {
     auto& [t, frame] = *static_cast<Special*>(context);
+    frame.take_pending(t);  // fragments are numbered in drawing order
     if (!t.filler) t.filler.emplace(frame.frame_, t.buffer, *frame.look_.shading, t.counts);
     t.filler->fill(frame.portions_[entry.portion]->kept()[entry.source]);
   };
@@ -248,16 +266,76 @@ void TiledFrame::draw_tile(Tile& tile, bool numbered) const {
   std::size_t size = 0;
   for (std::size_t i = 0; i < portions_.size(); ++i) {
     bins[i] = &portions_[i]->bin(number);
+    tile.task.spans[i] = &portions_[i]->spans();
     size += bins[i]->size;
   }
-  if (numbered) tile.entries.resize(size);
+  if (tile.task.number != nullptr) tile.entries.resize(size);
   tile.task.entries = tile.entries.data();
   draw_bins(tile.task, bins.data(), static_cast<int>(portions_.size()));
-  if (numbered) find_values(tile);
+  take_pending(tile);
+  if (look_.mode == DrawMode::phong) {
+    find_phong_values(tile);
+  } else if (tile.buffer.meaning == Words::numbers) {
+    find_values(tile);
+  } else if (tile.buffer.meaning == Words::both) {
+    composite(tile);
+  }
 }
 
-// Replaces numbers of triangles by what the triangles have at the samples.
+// Keeps what is not behind an opaque surface by now.
+void TiledFrame::take_pending(Tile& tile) const {
+  SampleBuffer& b = tile.buffer;
+  NumberedValues values(portions_, tile.entries, frame_.subpixel_bits);
+  for (const PendingFragment& f : tile.pending.all()) {
+    if (f.depth >= b.depths[f.sample]) continue;
+    const int x = b.window.x + static_cast<int>(f.sample % k_tile);
+    const int y = b.window.y + static_cast<int>(f.sample / k_tile);
+    b.fragments.add(f.sample, b.depths.size(), f.depth, values.color(f.number, x, y),
+                    values.opacity(f.number, x, y));
+  }
+  tile.pending.clear();
+}
+
+// Replaces numbers of surfaces by what the surfaces have at the samples.
 void TiledFrame::find_values(Tile& tile) const {
+  SampleBuffer& b = tile.buffer;
+  NumberedValues values(portions_, tile.entries, frame_.subpixel_bits);
+  for (int y = b.window.y; y < b.window.end_y; ++y) {
+    for (int x = b.window.x; x < b.window.end_x; ++x) {
+      const std::size_t sample = b.index(x, y);
+      if (b.numbers[sample] == k_valued) continue;
+      b.values[sample] = values.color(b.numbers[sample], x, y);
+      b.numbers[sample] = k_valued;
+    }
+  }
+}
+
+// Colours of samples where something transparent is seen.
+void TiledFrame::composite(Tile& tile) const {
+  SampleBuffer& b = tile.buffer;
+  if (!b.fragments.any()) return;
+  NumberedValues values(portions_, tile.entries, frame_.subpixel_bits);
+  for (int y = b.window.y; y < b.window.end_y; ++y) {
+    for (int x = b.window.x; x < b.window.end_x; ++x) {
+      const std::size_t sample = b.index(x, y);
+      if (!b.fragments.any_at(sample)) continue;
+      const std::uint32_t number = b.numbers[sample];
+      V3f behind = color_of(look_.background);
+      if (number == k_valued) {
+        behind = b.values[sample];
+      } else if (number != k_background) {
+        behind = values.color(number, x, y);
+      }
+      const Rgb color =
+          b.fragments.composite(sample, b.depths[sample], {behind.x, behind.y, behind.z}, look_.transparency);
+      b.words[sample] =
+          to_byte(color.r) | std::uint32_t{to_byte(color.g)} << 8 | std::uint32_t{to_byte(color.b)} << 16;
+    }
+  }
+}
+
+// The same in Phong frames.
+void TiledFrame::find_phong_values(Tile& tile) const {
   SampleBuffer& b = tile.buffer;
   const int bits = frame_.subpixel_bits;
   std::uint32_t last = k_valued;
@@ -272,7 +350,7 @@ void TiledFrame::find_values(Tile& tile) const {
   for (int y = b.window.y; y < b.window.end_y; ++y) {
     for (int x = b.window.x; x < b.window.end_x; ++x) {
       const std::size_t sample = b.index(x, y);
-      const std::uint32_t number = b.words[sample];
+      const std::uint32_t number = b.numbers[sample];
       if (number == k_valued) continue;
       if (number != last) {
         last = number;
@@ -281,28 +359,19 @@ void TiledFrame::find_values(Tile& tile) const {
         t.a = {e.x[0], e.y[0], e.z[0]};
         t.b = {e.x[1], e.y[1], e.z[1]};
         t.c = {e.x[2], e.y[2], e.z[2]};
-        const bool phong = look_.mode == DrawMode::phong;
-        if (phong) {
-          polygon = (*kept)[e.source];
-          look_number = b.materials.number(polygon.look);
-        }
+        polygon = (*kept)[e.source];
+        look_number = b.materials.number(polygon.look);
         ScreenVertex* const vertices[3] = {&t.a, &t.b, &t.c};
         for (std::size_t k = 0; k < 3; ++k) {
           ScreenVertex& v = *vertices[k];
-          if (phong) {
-            corners[k] = e.color[k] - kept->polygons[e.source].first;
-            const ScreenVertex& c = polygon.corners[corners[k]];
-            const int resolution = frame_.resolution.color;
-            v.r = to_8_bits(c.r, resolution), v.g = to_8_bits(c.g, resolution);
-            v.b = to_8_bits(c.b, resolution);
-          } else {
-            const std::uint32_t word = e.color[k];
-            v.r = static_cast<std::uint8_t>(word), v.g = static_cast<std::uint8_t>(word >> 8);
-            v.b = static_cast<std::uint8_t>(word >> 16);
-          }
+          corners[k] = e.color[k] - kept->polygons[e.source].first;
+          const ScreenVertex& c = polygon.corners[corners[k]];
+          const int resolution = frame_.resolution.color;
+          v.r = to_8_bits(c.r, resolution), v.g = to_8_bits(c.g, resolution);
+          v.b = to_8_bits(c.b, resolution);
         }
         planes.reset();
-        if (!phong || polygon.look.material == nullptr) {
+        if (polygon.look.material == nullptr) {
           planes.emplace(t, bits);
         } else {
           const Shader* const shader = polygon.look.shader;
@@ -316,10 +385,10 @@ void TiledFrame::find_values(Tile& tile) const {
           if (perspective) std::transform(places.begin(), places.end(), places.begin(), projected);
         }
       }
-      b.words[sample] = k_valued;
+      b.numbers[sample] = k_valued;
       if (planes) {
         b.values[sample] = planes->color(x, y);
-        if (look_.mode == DrawMode::phong) b.points[sample].material = look_number;
+        b.points[sample].material = look_number;
         continue;
       }
       const Barycentric where(t, bits, x, y);
@@ -336,9 +405,9 @@ void TiledFrame::find_values(Tile& tile) const {
   }
 }
 
-void TiledFrame::write_tile(Tile& tile, bool numbered, Framebuffer& picture) const {
+void TiledFrame::write_tile(Tile& tile, Framebuffer& picture) const {
   SampleBuffer& b = tile.buffer;
-  if (numbered) {
+  if (b.meaning == Words::numbers) {
     resolve(b, look_.samples, look_.transparency, *look_.shading, tile.counts, picture);
     return;
   }

@@ -5,17 +5,25 @@
 //
 // Same picture, bit for bit, as the plain path (PolygonFiller over the whole frame): same coverage, same
 // planes, same order of drawing within every tile.
-// On vectors: triangles and fans of them (all convex polygons), opaque. In Phong frames, and where something
-//          is transparent in a tile, samples hold the number of the nearest opaque triangle, and values are
-//          found once visibility is known.
-// One sample at a time, by PolygonFiller within the tile: transparent polygons, those without a fan, and
-//          triangles that are no plane triangles.
-// Memory:  RasterTuning::waiting_bytes of waiting triangles, 68 bytes each and tile (in Phong frames 60 to 72
-// a
-//          corner more), and one batch more; in frames of more than 2^26 samples a byte a sample, 2 GB at
-//          most. Some 200 KB a thread. When triangles take more, tiles are drawn as far as they are known and
-//          kept: 20 bytes a sample, Phong 36 (48 with textures), and 32 a transparent fragment. Transparent
-//          fragments otherwise count for the tiles being drawn alone.
+// On vectors: triangles and fans of them (all convex polygons), set up in every tile that they meet. Other
+//          polygons, and triangles that are no plane triangles, are cut into spans once, when they are
+//          sorted; each tile fills the pieces that lie in it. Both opaque and transparent.
+// Numbers: where something is transparent in a tile, and in frames whose tiles are kept, samples also hold
+// the
+//          number of the nearest opaque surface: its colour before rounding is found once visibility is
+//          known. Transparent surfaces leave number and depth at every sample where nothing opaque hides them
+//          yet; what is still seen at the end is composited.
+// Phong:   samples hold numbers; normals and positions are found once visibility is known. Transparent
+// polygons,
+//          those without a fan and triangles that are no plane triangles are drawn one sample at a time, by
+//          PolygonFiller within every tile.
+// Memory:  RasterTuning::waiting_bytes of what waits: 68 bytes a triangle and tile, 120 a span and 8 a piece
+// of
+//          it (in Phong frames 60 to 72 a corner more), and one batch, or one row of tiles of a polygon in
+//          spans, more; in frames of more than 2^26 samples a byte a sample, 2 GB at most. Some 200 KB a
+//          thread. When what waits takes more, tiles are drawn as far as they are known and kept: 20 bytes a
+//          sample, Phong 36 (48 with textures), and 32 a transparent fragment. Transparent fragments
+//          otherwise count for the tiles being drawn alone.
 #pragma once
 
 #include <cstddef>
@@ -60,16 +68,19 @@ class TiledFrame {
   class Workers;
 
   std::size_t waiting_bytes() const;
-  std::size_t add_some(const ScreenPolygonBatch& batch, std::size_t next);
+  Progress add_some(const ScreenPolygonBatch& batch, const Progress& next);
   void start_portions();
   void draw_waiting(Framebuffer* picture);
   bool is_empty(int number) const;
   bool has_transparent(int number) const;
   void write_background(int number, Framebuffer& picture) const;
-  void begin_tile(Tile& tile, int number, bool numbered) const;
-  void draw_tile(Tile& tile, bool numbered) const;
+  void begin_tile(Tile& tile, int number, Words meaning) const;
+  void draw_tile(Tile& tile) const;
+  void take_pending(Tile& tile) const;
   void find_values(Tile& tile) const;
-  void write_tile(Tile& tile, bool numbered, Framebuffer& picture) const;
+  void find_phong_values(Tile& tile) const;
+  void composite(Tile& tile) const;
+  void write_tile(Tile& tile, Framebuffer& picture) const;
 
   RasterTuning tuning_;
   ScreenFrame frame_;

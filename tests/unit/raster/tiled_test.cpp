@@ -34,6 +34,29 @@ class Stripes : public Shader {
   double opacity_;
 };
 
+/// Concave, with up to 250 corners in a square: a gear with teeth around it, or a comb with teeth side by
+/// side or above each other.
+Corners toothed_polygon(Random& random, std::int64_t x, std::int64_t y, std::int64_t size) {
+  const int teeth = random.integer(3, 60), form = random.integer(0, 2);
+  Corners corners;
+  if (form == 0) {
+    for (int i = 0; i < 4 * teeth; ++i) {
+      const double angle = 6.283185307179586 * i / (4 * teeth);
+      const double radius = static_cast<double>(size) * (i % 4 < 2 ? 0.5 : 0.4);
+      corners.push_back(
+          vertex(x + std::llround(radius * std::cos(angle)), y + std::llround(radius * std::sin(angle))));
+    }
+    return corners;
+  }
+  for (int i = 0; i <= 2 * teeth; ++i) {
+    const std::int64_t along = size * i / (2 * teeth), across = i % 2 == 0 ? size / 8 : size;
+    corners.push_back(form == 1 ? vertex(x + along, y + across) : vertex(x + across, y + along));
+  }
+  corners.push_back(form == 1 ? vertex(x + size, y) : vertex(x, y + size));
+  corners.push_back(vertex(x, y));
+  return corners;
+}
+
 /// Polygons of all kinds in a frame, and how they are to be drawn.
 struct Soup {
   ScreenFrame frame;
@@ -88,6 +111,7 @@ class SoupMaker {
     const Shape shape = k_shapes[random_.bits() % 5];
     Corners corners = random_polygon(random_, random_.integer(0, 2) == 0 ? shape : Shape::triangle, x,
                                      x + size, y, y + size);
+    if (random_.integer(0, 9) == 0) corners = toothed_polygon(random_, x, y, size);
     if (random_.integer(0, 4) == 0) thin(corners);
     if (random_.integer(0, 40) == 0) corners[0].x += 1 << 24;  // too large for planes
     const std::int64_t depth = random_.between(0, r.z - 1),
@@ -178,15 +202,18 @@ TEST(Tiled, DrawsRandomSoupsAsThePlainPathDoes) {
 
 TEST(Tiled, SortsLargeBatchesInParallelInOrder) {
   Random random(72);
+  Material glass;
+  glass.transmittance = 0.6;
   Soup soup;
   soup.frame = make_frame(300, 200, 4, 2);  // two depths: order decides
   soup.options.keep_depth = true;
   for (int i = 0; i < 60000; ++i) {
     const int x = random.integer(-80, 4800), y = random.integer(-80, 3200);
-    Corners corners = random_polygon(random, Shape::triangle, x, x + 160, y, y + 160);
+    Corners corners = i % 8 == 0 ? toothed_polygon(random, x, y, 160)
+                                 : random_polygon(random, Shape::triangle, x, x + 160, y, y + 160);
     for (ScreenVertex& v : corners)
       v.z = random.integer(0, 1), v.r = static_cast<std::uint16_t>(random.integer(0, 255));
-    soup.drawing.add(corners);
+    soup.drawing.add(corners, i % 50 == 0 ? &glass : nullptr);
   }
   RasterTuning tuning;
   tuning.path = RasterPath::plain;
