@@ -86,13 +86,14 @@ bool EdgeTable::next_row() {
 }
 
 // Order of the crossings on the current row. Equal crossings are told apart by their corners, so that the
-// pairs do not depend on how the corners are numbered.
+// pairs do not depend on how the corners are numbered; by their numbers where corners are the same here and
+// differ in what is not known here (opacities, normals), so that all windows have the same pairs.
 bool EdgeTable::left_of(const Edge& a, const Edge& b) const {
   if (a.first != b.first) return a.first < b.first;
   const Int128 excess_a = Int128{a.excess} * b.denominator, excess_b = Int128{b.excess} * a.denominator;
   if (excess_a != excess_b) return excess_a > excess_b;
-  return std::tuple_cat(key(corners_[a.bottom]), key(corners_[a.top])) <
-         std::tuple_cat(key(corners_[b.bottom]), key(corners_[b.top]));
+  return std::tuple_cat(key(corners_[a.bottom]), key(corners_[a.top]), std::tie(a.bottom, a.top)) <
+         std::tuple_cat(key(corners_[b.bottom]), key(corners_[b.top]), std::tie(b.bottom, b.top));
 }
 
 EdgePoint EdgeTable::crossing(const Edge& edge) const {

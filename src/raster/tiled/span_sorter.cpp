@@ -35,8 +35,8 @@ int SpanSorter::sort(std::span<const ScreenVertex> corners, std::span<const V3d>
     const int of = grid_->tile_of[static_cast<std::size_t>(row)];
     if (of != tile_row) {
       end_tile_row(tile_row, kept, add);
+      if (tile_row >= 0 && kept.bytes() > byte_limit) return row;
       tile_row = of;
-      if (kept.bytes() > byte_limit) return row;
     }
     for (const Span& span : edge_table_.spans()) {
       const auto number = static_cast<std::uint32_t>(kept.spans.size());
@@ -82,6 +82,7 @@ void SpanSorter::cut(const Span& span, std::uint32_t number, int row) {
   }
 }
 
+// Nothing to do before the first.
 void SpanSorter::end_tile_row(int tile_row, KeptSpans& kept, const AddPieces& add) {
   for (const int column : columns_) {
     std::vector<SpanPiece>& pieces = pieces_[static_cast<std::size_t>(column)];
