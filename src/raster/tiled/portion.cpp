@@ -4,12 +4,17 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <utility>
 
 #include "raster/corner_color.h"
+#include "raster/wide_integer.h"
 #include "shading/material.h"
 
 namespace farop::tiled {
 namespace {
+
+/// Tiles in a row from which on it pays to look which of them a triangle covers.
+constexpr int k_long_triangle = 4;
 
 template <class T>
 std::span<const T> part(const std::vector<T>& all, std::size_t first, std::size_t count) {
@@ -246,6 +251,12 @@ void Portion::add_triangle(const ScreenPolygonBatch& batch, const ScreenPolygonR
 
 void Portion::add_to_tiles(const Triangle& t, const TrianglePayload& payload, const Samples& samples) {
   const int side = grid_->side, bits = grid_->subpixel_bits;
+  // Long and thin ones cover samples in few of the tiles that they cross.
+  const int columns = (samples.end_column - samples.first_column) / side;
+  if (columns > k_long_triangle && 4 * columns > std::min(samples.end_row - samples.first_row, side)) {
+    add_to_tiles_of_rows(t, payload, samples);
+    return;
+  }
   for_each_tile(samples, [&](Bin& bin, int x, int y, bool in_line) {
     if (!in_line) {
       const std::int64_t low_x = (std::int64_t{x} * side) << bits, low_y = (std::int64_t{y} * side) << bits;
@@ -258,6 +269,39 @@ void Portion::add_to_tiles(const Triangle& t, const TrianglePayload& payload, co
     add_entry(bin, t.a, t.b, t.c, payload);
     bin.has_transparent = bin.has_transparent || payload.transparent != 0;
   });
+}
+
+// Row by row, into the tiles with samples that it covers.
+void Portion::add_to_tiles_of_rows(const Triangle& t, const TrianglePayload& payload,
+                                   const Samples& samples) {
+  const int bits = grid_->subpixel_bits;
+  const auto row_at_or_above = [bits](const ScreenVertex& v) { return -(-v.y >> bits); };
+  const int row_of_b = row_at_or_above(t.b), row_of_c = row_at_or_above(t.c);
+  const auto crossing = [&](const ScreenVertex& low, const ScreenVertex& high, int row) {
+    const std::int64_t dx = std::int64_t{high.x} - low.x, dy = std::int64_t{high.y} - low.y;
+    const std::int64_t up = (std::int64_t{row} << bits) - low.y;
+    const std::int64_t column = -floor_div<std::int64_t>(-(low.x * dy + up * dx), dy << bits);
+    return static_cast<int>(std::clamp<std::int64_t>(column, samples.first_column, samples.end_column));
+  };
+  last_row_.resize(static_cast<std::size_t>(grid_->columns));
+  int tile_row = -1;
+  for (int row = samples.first_row; row < samples.end_row; ++row) {
+    const int first = row < row_of_c ? crossing(t.a, t.c, row) : crossing(t.c, t.b, row);
+    const int end = row < row_of_b ? crossing(t.a, t.b, row) : crossing(t.b, t.c, row);
+    if (first >= end) continue;
+    if (grid_->tile_of[static_cast<std::size_t>(row)] != tile_row) {
+      tile_row = grid_->tile_of[static_cast<std::size_t>(row)];
+      ++tile_rows_;
+    }
+    const int last = grid_->tile_of[static_cast<std::size_t>(end - 1)];
+    for (int x = grid_->tile_of[static_cast<std::size_t>(first)]; x <= last; ++x) {
+      if (std::exchange(last_row_[static_cast<std::size_t>(x)], tile_rows_) == tile_rows_) continue;
+      Bin& bin = bins_[static_cast<std::size_t>(tile_row) * static_cast<std::size_t>(grid_->columns) +
+                       static_cast<std::size_t>(x)];
+      add_entry(bin, t.a, t.b, t.c, payload);
+      bin.has_transparent = bin.has_transparent || payload.transparent != 0;
+    }
+  }
 }
 
 // Returns the row to go on with when more than `byte_limit` bytes are in use, else 0.

@@ -82,6 +82,7 @@ class Portion {
   void add_entry(Bin& bin, const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c,
                  const TrianglePayload& payload);
   void add_to_tiles(const Triangle& t, const TrianglePayload& payload, const Samples& samples);
+  void add_to_tiles_of_rows(const Triangle& t, const TrianglePayload& payload, const Samples& samples);
   void add_triangle(const ScreenPolygonBatch& batch, const ScreenPolygonRecord& record, const Triangle& t,
                     TrianglePayload payload, const std::uint32_t (&numbers)[3]);
   int add_by_scan_lines(const ScreenPolygonBatch& batch, const ScreenPolygonRecord& record,
@@ -115,6 +116,9 @@ class Portion {
   SurfaceLook last_look_;  ///< polygons of a surface come in a row
   bool last_opaque_ = true, last_invisible_ = false;
   std::vector<std::uint32_t> all_corners_;  ///< 0, 1, 2 ...
+  // Of add_to_tiles_of_rows(): rows of tiles walked through so far, and by column the last that got an entry.
+  std::uint64_t tile_rows_ = 0;
+  std::vector<std::uint64_t> last_row_;
   // Of the polygon that is cut into spans.
   std::vector<ScreenVertex> corners_;
   std::vector<V3d> opacities_;

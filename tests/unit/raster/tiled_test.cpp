@@ -2,11 +2,15 @@
 // The tiled path draws the plain path's pictures bit for bit: every instruction set that this machine has,
 // every mode, tiles of several sizes, one and more threads, with and without room for all triangles.
 //
-// FAROP_SOUPS=100000 draws as many random scenes; the default is enough for every kind a few times.
+// FAROP_SOUPS=100000 draws as many random scenes, from FAROP_SOUPS_SEED; the default is enough for every kind
+// a few times.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <functional>
+#include <limits>
 
+#include "raster/tiled/portion.h"
 #include "shading/material.h"
 #include "shading/shader.h"
 #include "support/sanitizers.h"
@@ -173,11 +177,14 @@ Framebuffer picture_of(const Soup& soup, const RasterTuning& tuning) {
 }
 
 TEST(Tiled, DrawsRandomSoupsAsThePlainPathDoes) {
-  const char* const wanted = std::getenv("FAROP_SOUPS");
-  const int soups = wanted != nullptr ? std::atoi(wanted) : rounds(150);
+  const auto number = [](const char* variable, int usual) {
+    const char* const wanted = std::getenv(variable);
+    return wanted != nullptr ? std::atoi(wanted) : usual;
+  };
+  const int soups = number("FAROP_SOUPS", rounds(150));
   const std::vector<std::int64_t> all = targets();
   EXPECT_GE(all.size(), 2u);
-  SoupMaker maker(71);
+  SoupMaker maker(static_cast<std::uint64_t>(number("FAROP_SOUPS_SEED", 71)));
   for (int i = 0; i < soups; ++i) {
     const Soup soup = maker.make();
     RasterTuning tuning;
@@ -197,6 +204,40 @@ TEST(Tiled, DrawsRandomSoupsAsThePlainPathDoes) {
           << ", " << tuning.threads << " threads, " << tuning.waiting_bytes << " bytes, mode "
           << static_cast<int>(soup.options.mode) << ", samples " << soup.options.samples;
     }
+  }
+}
+
+/// Bytes that a polygon takes until it is drawn.
+std::size_t waiting_bytes_of(const Corners& corners, int width) {
+  Drawing drawing;
+  drawing.add(corners);
+  const ScreenFrame frame = make_frame(width, 12);
+  const tiled::TileGrid grid(frame, 64);
+  tiled::Portion portion;
+  portion.start(grid, DrawMode::gouraud, 256, 0);
+  constexpr std::size_t k_no_limit = std::numeric_limits<std::size_t>::max();
+  EXPECT_EQ(portion.add(drawing.batch, 0, {}, 1, {k_no_limit, k_no_limit}).polygon, 1u);
+  return portion.bytes();
+}
+
+TEST(Tiled, TakesMemoryForCornersAndTilesNotForTheirProduct) {
+  const auto bar = [](int corners) {  // a fan of long thin triangles
+    Corners ring;
+    for (int x = 0; x < corners / 2; ++x) ring.push_back(vertex(x, 0));
+    for (int x = corners / 2 - 1; x >= 0; --x) ring.push_back(vertex(x, 9));
+    return ring;
+  };
+  const auto comb = [](int corners) {  // no fan
+    Corners ring;
+    for (int x = 0; x < corners - 2; ++x) ring.push_back(vertex(x, x % 2 == 0 ? 2 : 9));
+    ring.push_back(vertex(corners, 0)), ring.push_back(vertex(-1, 0));
+    return ring;
+  };
+  for (const auto& polygon : {std::function<Corners(int)>(bar), std::function<Corners(int)>(comb)}) {
+    const std::size_t few = waiting_bytes_of(polygon(2000), 16000),
+                      many = waiting_bytes_of(polygon(16000), 16000);
+    EXPECT_LT(few, 2000 * 1500u);
+    EXPECT_LT(many, 9 * few);
   }
 }
 
