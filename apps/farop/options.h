@@ -20,7 +20,7 @@ struct InputOptions {
   std::vector<std::string> files;
   std::string format;  ///< "nff", "sipp", or empty: by suffix
   bool strict = false;
-  int threads = 1;                                ///< that read a file in NFF
+  int threads = 1;                                ///< that read a file in NFF, 0: all
   std::size_t part_bytes = std::size_t{8} << 20;  ///< of a scene that is streamed
   // Of scripts:
   std::vector<std::string> defines;  ///< NAME=VALUE

@@ -768,16 +768,17 @@ void Parser::fail_long_polygon(const Word& keyword, std::int64_t count, CornerFo
 
 std::optional<Scene> parse_nff(WordReader& reader, DiagnosticSink& sink, const NffOptions& options) {
   try {
-    if (options.threads < 2 || options.plain || !nff::ReadAhead::worthwhile(reader, options.piece_bytes))
+    const int available = tbb::info::default_concurrency();
+    const int threads = options.threads > 0 ? options.threads : available;
+    if (threads < 2 || options.plain || !nff::ReadAhead::worthwhile(reader, options.piece_bytes))
       return nff::Parser(reader, sink, options).parse();
     // More threads than the machine has processors only when asked for.
-    const tbb::global_control allow_more(
-        tbb::global_control::max_allowed_parallelism,
-        static_cast<std::size_t>(std::max(options.threads, tbb::info::default_concurrency())));
-    tbb::task_arena arena(options.threads);
+    const tbb::global_control allow_more(tbb::global_control::max_allowed_parallelism,
+                                         static_cast<std::size_t>(std::max(threads, available)));
+    tbb::task_arena arena(threads);
     std::optional<Scene> scene;
     arena.execute([&] {
-      nff::ReadAhead ahead(reader, options.threads, options.piece_bytes);
+      nff::ReadAhead ahead(reader, threads, options.piece_bytes);
       scene = nff::Parser(reader, sink, options, &ahead).parse();
     });
     return scene;

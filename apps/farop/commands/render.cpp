@@ -81,7 +81,11 @@ void run(Session& session, const RenderOptions& options) {
   }
   if (!null) check_picture_path(output);
 
-  load_inputs(session, options.input);
+  // With a user's rasterizer --threads are its own.
+  const int threads = chosen.kind == RasterizerKind::internal ? options.rasterizer.threads : 1;
+  InputOptions input = options.input;
+  input.threads = threads;
+  load_inputs(session, input);
   choose_mode(session, options.drawing, chosen.kind, drawing);
   const LoadedView view = *finish_loading(session, options.view, options.scene,
                                           viewport_defaults(chosen.kind), drawing.samples, true);
@@ -89,6 +93,7 @@ void run(Session& session, const RenderOptions& options) {
   const bool flat = drawing.mode == DrawMode::flat;
   GeometryOptions geometry = geometry_options(session, options.scene, flat);
   geometry.unlit = drawing.mode == DrawMode::line;
+  geometry.threads = threads;
   prepare_drawing(session, view, geometry, drawing.samples);
   if (!null) session.console.log("Image file to be created: '{}'", output);
   const std::string mode = name_of(drawing.mode);

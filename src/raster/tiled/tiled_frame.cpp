@@ -161,8 +161,9 @@ void TiledFrame::draw_waiting(Framebuffer* picture) {
   if (early && drawn_.empty()) drawn_.resize(static_cast<std::size_t>(grid_.count()));
   const bool alone = shaders && look_.mode == DrawMode::phong;  // shaders want to be called from one thread
   workers_->run(grid_.count(), alone, [&](int number) {
-    if (drawn_.empty() && is_empty(number)) {
-      write_background(number, *picture);
+    const bool empty = is_empty(number);
+    if (empty && (drawn_.empty() || drawn_[static_cast<std::size_t>(number)] == nullptr)) {
+      if (!early) write_background(number, *picture);
       return;
     }
     const bool numbered = look_.mode == DrawMode::phong || !drawn_.empty();
@@ -176,7 +177,7 @@ void TiledFrame::draw_waiting(Framebuffer* picture) {
       tile = slot.get();
     }
     if (!begun) begin_tile(*tile, number, meaning);
-    draw_tile(*tile);
+    if (!empty) draw_tile(*tile);
     if (!early) write_tile(*tile, *picture);
   });
   if (early) start_portions();
