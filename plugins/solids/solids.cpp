@@ -192,8 +192,9 @@ class Solids {
   bool is_back_face(const Polygon& polygon);
   int back_face_sign();
   std::int64_t twice_area(const Polygon& polygon) const;
+  std::int64_t outline_length(const Polygon& polygon) const;  ///< |dx| + |dy| of all edges
   void enter_polygon(std::uint32_t polygon);
-  bool enter_second_polygon(std::uint32_t low, std::uint32_t high, std::uint32_t polygon);
+  bool enter_second_polygon(std::uint32_t low, std::uint32_t high, std::uint32_t polygon, bool on_its_left);
   void enter_edge(std::uint32_t low, std::uint32_t high, std::int32_t first_line, std::int32_t end_line,
                   std::uint32_t polygon);
   void sort_into_buckets();
@@ -280,33 +281,34 @@ void Solids::begin(const farop_frame& frame) {
 void Solids::store(const farop_polygon& polygon) {
   const std::int32_t right = (frame_->width - 1) << frame_->subpixel_bits;
   const std::int32_t top = (frame_->height - 1) << frame_->subpixel_bits;
-  Polygon stored;
-  stored.first_corner = static_cast<std::uint32_t>(corners_.size());
-  stored.corner_count = polygon.vertex_count;
-  stored.back_facing = (polygon.flags & FAROP_POLYGON_BACK_FACING) != 0;
-  stored.one_color = true;
   const farop_vertex* const v = polygon.vertices;
-  stored.nearest = stored.farthest = v[0].z;
-  for (std::uint32_t i = 0; i < polygon.vertex_count; ++i) {
+  const std::uint32_t count = polygon.vertex_count;
+  std::int32_t nearest = v[0].z, farthest = v[0].z;
+  int other_colors = 0;
+  for (std::uint32_t i = 0; i < count; ++i) {
     if (v[i].x < 0 || v[i].x > right || v[i].y < 0 || v[i].y > top) {
       throw Refusal(FAROP_E_INVALID, "solids: a corner outside the frame");
     }
-    stored.one_color = stored.one_color && v[i].r == v[0].r && v[i].g == v[0].g && v[i].b == v[0].b;
-    stored.nearest = std::min(stored.nearest, v[i].z);
-    stored.farthest = std::max(stored.farthest, v[i].z);
+    other_colors |= (v[i].r ^ v[0].r) | (v[i].g ^ v[0].g) | (v[i].b ^ v[0].b);
+    nearest = std::min(nearest, v[i].z), farthest = std::max(farthest, v[i].z);
   }
-  corners_.insert(corners_.end(), v, v + polygon.vertex_count);
-  stored.surface = number_of_surface(polygon.object_id, polygon.surface_id);
-  stored.in_surface = polygon.surface_id != 0;
+  const auto first_corner = static_cast<std::uint32_t>(corners_.size());
+  corners_.insert(corners_.end(), v, v + count);
   if (variant_ >= 2) {
     if (polygon.vertex_ids != nullptr) {
-      ids_.insert(ids_.end(), polygon.vertex_ids, polygon.vertex_ids + polygon.vertex_count);
+      ids_.insert(ids_.end(), polygon.vertex_ids, polygon.vertex_ids + count);
     } else {
       ids_.resize(corners_.size(), FAROP_NO_VERTEX_ID);
     }
   }
-  polygons_.push_back(stored);
   colors_.push_back(four_of(v[0]));
+  const std::uint32_t surface = number_of_surface(polygon.object_id, polygon.surface_id);
+  Polygon& stored = polygons_.emplace_back();
+  stored.first_corner = first_corner, stored.corner_count = count;
+  stored.surface = surface, stored.in_surface = polygon.surface_id != 0;
+  stored.back_facing = (polygon.flags & FAROP_POLYGON_BACK_FACING) != 0;
+  stored.one_color = other_colors == 0;
+  stored.nearest = nearest, stored.farthest = farthest;
 }
 
 // Polygons of a surface mostly come one after the other.
@@ -379,23 +381,29 @@ bool Solids::is_back_face(const Polygon& polygon) {
   }
   const std::int64_t area = sign * twice_area(polygon);
   if (area <= 0) return false;
-  std::int64_t length = 0;
   bool both_ways = false;
   for (std::uint32_t i = 0, last = count - 1, before_last = count - 2; i < count;
        before_last = last, last = i++) {
-    length += std::abs(v[i].x - v[last].x) + std::abs(v[i].y - v[last].y);
     both_ways = both_ways || sign * turn(v[before_last], v[last], v[i]) < 0;
   }
   // Polygons of more corners may well be concave; rounding can turn over thin ones only.
-  return !(both_ways && area <= length);
+  return !(both_ways && area <= outline_length(polygon));
 }
 
-// Which way round back faces run on the screen: it depends on whether y points up or down.
+// Which way round back faces run on the screen: it depends on whether y points up or down. Rounding moves a
+// corner by half a unit, and so twice the area by the length of the outline and little more. The first back
+// face that is larger tells; where all are smaller, the sum does.
 int Solids::back_face_sign() {
   if (back_face_sign_ == 0) {
     std::int64_t sum = 0;
     for (const Polygon& polygon : polygons_) {
-      if (polygon.back_facing) sum += twice_area(polygon);
+      if (!polygon.back_facing) continue;
+      const std::int64_t area = twice_area(polygon);
+      if (std::abs(area) > outline_length(polygon) + 3 * std::int64_t{polygon.corner_count}) {
+        sum = area;
+        break;
+      }
+      sum += area;
     }
     back_face_sign_ = sum > 0 ? 1 : -1;
   }
@@ -407,6 +415,15 @@ std::int64_t Solids::twice_area(const Polygon& polygon) const {
   std::int64_t sum = 0;
   for (std::uint32_t i = 2; i < polygon.corner_count; ++i) sum += turn(v[0], v[i - 1], v[i]);
   return sum;
+}
+
+std::int64_t Solids::outline_length(const Polygon& polygon) const {
+  const farop_vertex* const v = &corners_[polygon.first_corner];
+  std::int64_t length = 0;
+  for (std::uint32_t i = 0, last = polygon.corner_count - 1; i < polygon.corner_count; last = i++) {
+    length += std::abs(v[i].x - v[last].x) + std::abs(v[i].y - v[last].y);
+  }
+  return length;
 }
 
 // An edge lives on the lines y_low <= line < y_high, so horizontal edges live on none: the rule "bottom edges
@@ -423,7 +440,7 @@ void Solids::enter_polygon(std::uint32_t polygon) {
     const std::int32_t end_line = line_at_or_above(corners_[high].y);
     if (first_line >= end_line) continue;
     if (variant_ >= 2 && ids_[low] != FAROP_NO_VERTEX_ID && ids_[high] != FAROP_NO_VERTEX_ID &&
-        enter_second_polygon(low, high, polygon)) {
+        enter_second_polygon(low, high, polygon, upwards != polygons_[polygon].back_facing)) {
       continue;
     }
     enter_edge(low, high, first_line, end_line, polygon);
@@ -431,8 +448,10 @@ void Solids::enter_polygon(std::uint32_t polygon) {
 }
 
 // Gives the edge that a neighbour has entered its second polygon. Or makes room for the edge to be entered
-// next, and returns false.
-bool Solids::enter_second_polygon(std::uint32_t low, std::uint32_t high, std::uint32_t polygon) {
+// next, and returns false. The polygon that the sweep leaves at the edge comes first: which one that is
+// decides whether the polygons are in, not this order; but cross() is faster where it can be foretold.
+bool Solids::enter_second_polygon(std::uint32_t low, std::uint32_t high, std::uint32_t polygon,
+                                  bool on_its_left) {
   const std::uint32_t low_id = ids_[low], high_id = ids_[high], surface = polygons_[polygon].surface;
   const std::size_t mask = slots_.size() - 1;
   std::size_t at = static_cast<std::size_t>(mixed(low_id ^ (surface << 16), high_id)) & mask;
@@ -450,6 +469,7 @@ bool Solids::enter_second_polygon(std::uint32_t low, std::uint32_t high, std::ui
         same_place(corners_[ends.low], corners_[low]) && same_place(corners_[ends.high], corners_[high]);
     if (same && edge.polygon[1] == k_none) {
       edge.polygon[1] = polygon;
+      if (on_its_left) std::swap(edge.polygon[0], edge.polygon[1]);
       return true;
     }
     surfaces_[surface].solid = false;  // a third polygon, or ids that are none
@@ -579,11 +599,16 @@ void Solids::cross(std::uint32_t active) {
     enter_or_leave(b, 2 * active + 1);
   } else {
     // From a face to its neighbour: what goes for one goes for the other, as they meet here.
-    const std::uint32_t side = polygons_[a].in;
-    const std::uint32_t from = active_[active].polygon[1 - side], to = active_[active].polygon[side];
-    replace(from, to, 2 * active + side);
-    if (visible_ == from) visible_ = to;
-    if (polygons_[from].candidate_at == column_number_) make_candidate(to);
+    const auto go_over = [&](std::uint32_t from, std::uint32_t to, std::uint32_t crossing) {
+      replace(from, to, crossing);
+      if (visible_ == from) visible_ = to;
+      if (polygons_[from].candidate_at == column_number_) make_candidate(to);
+    };
+    if (polygons_[a].in) {  // always, or never if y points down: but for faces that rounding has turned over
+      go_over(a, b, 2 * active + 1);
+    } else {
+      go_over(b, a, 2 * active);
+    }
   }
 }
 
@@ -641,11 +666,13 @@ bool Solids::must_be_careful() const {
 // new, unless the sweep came over an outline. Faces do not cross, so depths at this pixel hold up to the end.
 inline void Solids::emit_trusting(std::int32_t column, std::int32_t end) {
   bool certain = true;
-  if (in_.size() == 1) {
+  if (visible_ != k_none && candidates_.empty()) {
+    // It stays, or its neighbour has taken its place.
+  } else if (in_.size() == 1) {
     visible_ = in_[0];
   } else if (visible_ == k_none) {
     certain = nearest_among(in_, column);
-  } else if (!candidates_.empty()) {
+  } else {
     std::erase_if(candidates_, [&](std::uint32_t p) { return !polygons_[p].in || p == visible_; });
     candidates_.push_back(visible_);
     certain = nearest_among(candidates_, column);
@@ -806,19 +833,18 @@ std::uint32_t Solids::make_ramp(Polygon& polygon, std::int32_t column) {
 
 // ---- pixels -------------------------------------------------------------------------------------
 
-/// The same three bytes `count` times, count > 0.
+/// The same three bytes `count` times, count > 0. Some pixels are written twice: that is faster than to ask
+/// how many are left.
 void fill(std::uint8_t* to, std::int32_t count, const FourPixels& four) {
   std::uint8_t* const end = to + 3 * std::ptrdiff_t{count};
-  // Some pixels are written twice: that is faster than to ask how many are left.
   if (count >= 4) {
     std::memcpy(to, four.data(), 12);
     std::memcpy(end - 12, four.data(), 12);
     for (; count > 8; count -= 4) std::memcpy(to += 12, four.data(), 12);
-  } else if (count >= 2) {
-    std::memcpy(to, four.data(), 6);
-    std::memcpy(end - 6, four.data(), 6);
   } else {
     std::memcpy(to, four.data(), 3);
+    std::memcpy(to + 3 * (count / 2), four.data(), 3);
+    std::memcpy(end - 3, four.data(), 3);
   }
 }
 
