@@ -243,6 +243,43 @@ TEST(Check, AcceptsTheLectureRuleWhenAsked) {
   EXPECT_EQ(result.summary.verdict, "pass.other-rule");
 }
 
+/// All that a run says, but for times.
+std::string account_of(const CheckResult& result) {
+  std::string text;
+  for (const Finding& f : result.findings) {
+    text += finding_line(f) + "\n";
+    for (const std::string& id : f.case_ids) text += id + "\n";
+    for (const Example& e : f.examples) text += e.from_case + "\n" + e.flat;
+  }
+  for (const CaseResult& c : result.cases) {
+    text += c.id + " " + std::to_string(static_cast<int>(c.status)) + " " + std::to_string(c.judged) + " " +
+            std::to_string(c.wrong) + " " + std::to_string(c.ambiguous);
+    for (const std::string& verdict : c.verdicts) text += " " + verdict;
+    text += "\n";
+  }
+  return text;
+}
+
+TEST(Check, SaysTheSameWithOneThreadAndWithEight) {
+  Faults wrong;
+  wrong.test = Faults::Test::none, wrong.rule = FillRule::closed;
+  for (const Faults& faults : {Faults{}, wrong}) {
+    std::vector<std::string> told[2], said;
+    for (const int workers : {1, 8}) {
+      CheckOptions options;
+      options.workers = workers;
+      // One at a time, in the order of the corpus.
+      options.finished = [&](const CaseResult& c) { told[workers == 8].push_back(c.id); };
+      const std::vector<std::string> families = {"cov/convex",  "tile/fan",    "depth/two",  "depth/cross",
+                                                 "depth/slope", "colour/frac", "meta/split", "det"};
+      said.push_back(account_of(check_families(faults, families, options)));
+    }
+    EXPECT_EQ(said[0], said[1]);
+    EXPECT_EQ(told[0], told[1]);
+    EXPECT_GT(told[0].size(), 250u);
+  }
+}
+
 TEST(Check, StopsWhenAskedAndKeepsWhatWasFound) {
   Faults faults;
   faults.test = Faults::Test::none;
