@@ -770,7 +770,9 @@ std::optional<Scene> parse_nff(WordReader& reader, DiagnosticSink& sink, const N
   try {
     const int available = tbb::info::default_concurrency();
     const int threads = options.threads > 0 ? options.threads : available;
-    if (threads < 2 || options.plain || !nff::ReadAhead::worthwhile(reader, options.piece_bytes))
+    constexpr std::size_t k_short_file = std::size_t{1} << 22;
+    const std::size_t least = options.threads > 0 ? options.piece_bytes : k_short_file;
+    if (threads < 2 || options.plain || !nff::ReadAhead::worthwhile(reader, least))
       return nff::Parser(reader, sink, options).parse();
     // More threads than the machine has processors only when asked for.
     const tbb::global_control allow_more(tbb::global_control::max_allowed_parallelism,

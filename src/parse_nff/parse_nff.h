@@ -25,7 +25,7 @@ struct NffOptions {
   ProgressFunction progress;  ///< called with bytes read so far and bytes in all, once per block of input
   bool plain = false;         ///< the plain reader alone: same scene, same messages, slower; for comparison
   /// That read at once; more than one helps with long files and texts, not with pipes. 0: as many as the
-  /// machine gives this process.
+  /// machine gives this process, one for files that are read before another has started.
   int threads = 1;
   std::size_t piece_bytes = std::size_t{1} << 18;  ///< of the text that a thread looks at as a unit
   /// Where given, surfaces go there and not into the scene, whenever they have come to some `part_bytes` or

@@ -7,7 +7,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <utility>
 #include <vector>
 
@@ -31,7 +30,8 @@ class FragmentStore {
   /// in front. `behind`: colour there.
   Rgb composite(std::size_t sample, std::int32_t opaque_depth, Rgb behind, Transparency rule);
 
-  bool any() const { return !fragments_.empty(); }
+  bool any() const { return count_ > 0; }
+  /// Keeps the memory.
   void clear();
   bool any_at(std::size_t sample) const { return !newest_.empty() && newest_[sample] != k_none; }
 
@@ -45,8 +45,12 @@ class FragmentStore {
     std::uint32_t older = k_none;  ///< the fragment drawn before at the same sample
   };
 
-  std::vector<std::uint32_t> newest_;                          ///< per sample
-  std::deque<Fragment> fragments_;                             ///< grows without moving what it holds
+  static constexpr std::size_t k_chunk = 256;
+  const Fragment& fragment(std::uint32_t number) const { return chunks_[number / k_chunk][number % k_chunk]; }
+
+  std::vector<std::uint32_t> newest_;  ///< per sample
+  std::size_t count_ = 0;
+  std::vector<std::vector<Fragment>> chunks_;                  ///< grows without moving what it holds
   std::vector<std::pair<std::int32_t, std::uint32_t>> order_;  ///< scratch of composite(): depth, number
 };
 

@@ -2,6 +2,10 @@
 #include "raster/internal_rasterizer.h"
 
 #include <fmt/format.h>
+#ifdef __linux__
+#include <sys/mman.h>
+#include <unistd.h>
+#endif
 
 #include <array>
 #include <new>
@@ -58,6 +62,21 @@ void check(const ScreenFrame& frame, int samples) {
 
 std::array<std::uint8_t, 3> to_bytes(const Rgb& c) {
   return {to_byte(255 * c.r), to_byte(255 * c.g), to_byte(255 * c.b)};
+}
+
+/// Resizes an empty array. Its memory is asked for at once: page by page, when it is first touched, takes as
+/// long as drawing a picture of moderate size.
+template <class T>
+void resize_new(std::vector<T>& array, std::size_t size) {
+  array.reserve(size);
+#ifdef MADV_POPULATE_WRITE
+  const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
+  const auto first = (reinterpret_cast<std::uintptr_t>(array.data()) + page - 1) / page * page;
+  const auto end = reinterpret_cast<std::uintptr_t>(array.data() + size) / page * page;
+  if (first < end)
+    madvise(reinterpret_cast<void*>(first), end - first, MADV_POPULATE_WRITE);  // a wish, no more
+#endif
+  array.resize(size);
 }
 
 /// White, or black on a bright background.
@@ -134,8 +153,8 @@ void InternalRasterizer::make_picture() {
   picture_.width = frame_.resolution.x / options_.samples;
   picture_.height = frame_.resolution.y / options_.samples;
   const std::size_t pixels = picture_.pixel(0, picture_.height);
-  picture_.rgb.resize(3 * pixels);
-  if (options_.keep_depth) picture_.depth.resize(pixels);
+  resize_new(picture_.rgb, 3 * pixels);
+  if (options_.keep_depth) resize_new(picture_.depth, pixels);
 }
 
 void InternalRasterizer::polygons(const ScreenPolygonBatch& batch) {

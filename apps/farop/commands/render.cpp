@@ -9,6 +9,7 @@
 #include "drawer.h"
 #include "picture_library.h"
 #include "repeat_file.h"
+#include "scene/traverse.h"
 #include "scene_notes.h"
 #include "session.h"
 
@@ -93,7 +94,8 @@ void run(Session& session, const RenderOptions& options) {
   const bool flat = drawing.mode == DrawMode::flat;
   GeometryOptions geometry = geometry_options(session, options.scene, flat);
   geometry.unlit = drawing.mode == DrawMode::line;
-  geometry.threads = threads;
+  constexpr std::size_t k_small_scene = 50000;  // polygons; done before another thread has started
+  geometry.threads = threads == 0 && totals(session.scene).polygons < k_small_scene ? 1 : threads;
   prepare_drawing(session, view, geometry, drawing.samples);
   if (!null) session.console.log("Image file to be created: '{}'", output);
   const std::string mode = name_of(drawing.mode);

@@ -90,11 +90,12 @@ class SoupMaker {
     const std::int64_t depths =
         one_of({std::int64_t{2}, std::int64_t{65536}, std::int64_t{1} << 24, std::int64_t{1} << 30});
     const int colors = one_of({256, 256, 256, 2, 100, 65536});
-    const int w = random_.integer(1, 200) * o.samples, h = random_.integer(1, 150) * o.samples;
+    const int most = one_of({40, 40, 40, 40, 200});  // mostly small: more of them in the time
+    const int w = random_.integer(1, most) * o.samples, h = random_.integer(1, most) * o.samples;
     soup.frame = make_frame(w, h, bits, depths, colors);
     soup.frame.half_pixel_border = random_.integer(0, 1) == 1;
     const bool transparent = random_.integer(0, 3) == 0;
-    const int count = one_of({3, 20, 100, 300});
+    const int count = one_of({3, 10, 30, 100, 300});
     for (int i = 0; i < count; ++i) add_polygon(soup, transparent);
     return soup;
   }
