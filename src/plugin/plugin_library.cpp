@@ -165,8 +165,9 @@ PluginLibrary inspect_plugin_file(const std::string& path) {
   if (header.e_type != ET_DYN) {
     return failed(LoadFailure::file, "is not a shared library (an executable or an object file)", build);
   }
-  const std::uint64_t headers_end = header.e_phoff + std::uint64_t{header.e_phnum} * header.e_phentsize;
-  if (headers_end > static_cast<std::uint64_t>(status.st_size)) {
+  const auto bytes = static_cast<std::uint64_t>(status.st_size);
+  const std::uint64_t headers_bytes = std::uint64_t{header.e_phnum} * header.e_phentsize;
+  if (header.e_phoff > bytes || headers_bytes > bytes - header.e_phoff) {
     return failed(LoadFailure::file, "is cut short: its headers lie behind its end");
   }
   return {};

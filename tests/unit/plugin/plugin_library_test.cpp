@@ -108,6 +108,8 @@ TEST_F(PluginFiles, AreLookedAtWithoutRunningThem) {
   EXPECT_EQ(message(write(self_bytes(20))), "is cut short");
   std::string header = self_bytes(64);
   EXPECT_EQ(message(write(header)), "is cut short: its headers lie behind its end");
+  header.replace(32, 8, 8, '\xFF');  // so far behind that their end comes round to the file's start
+  EXPECT_EQ(message(write(header)), "is cut short: its headers lie behind its end");
   header[4] = 1;
   EXPECT_EQ(message(write(header)), "is a 32-bit file, this farop is a 64-bit program");
   header[4] = 2, header[18] = 3;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// In the place of farop-runner: knows the cookie and says what comes to its mind. The option "seed" decides.
+// In the place of farop-runner: knows the cookie and says what comes to its mind. The option "seed" decides;
+// or "script", in hexadecimal, says it byte by byte (tests/fuzz/runner_fuzz.cpp).
 #include <poll.h>
 #include <signal.h>
 #include <sys/mman.h>
@@ -8,10 +9,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <random>
 #include <string>
+#include <vector>
 
 #include "isolate/protocol.h"
 
@@ -89,6 +92,83 @@ int main() {
 
 namespace {
 
+/// A script is a list of steps: a byte that says what, a byte that says where, a byte that says how many
+/// bytes follow, and these. Messages are right but for the bytes that are written over them, 8 `where` from
+/// their start; answers wait for their question.
+class Replay {
+ public:
+  Replay(std::uint64_t cookie, unsigned char* black_box, const char* hexadecimal)
+      : cookie_(cookie), black_box_(black_box) {
+    for (const char* at = hexadecimal; at[0] != '\0' && at[1] != '\0'; at += 2) {
+      script_.push_back(static_cast<unsigned char>(std::stoi(std::string(at, 2), nullptr, 16)));
+    }
+  }
+
+  void run() {
+    while (at_ + 3 <= script_.size()) {
+      const unsigned what = script_[at_], where = script_[at_ + 1];
+      const std::size_t count = std::min<std::size_t>(script_[at_ + 2], script_.size() - at_ - 3);
+      const unsigned char* const bytes = script_.data() + at_ + 3;
+      at_ += 3 + count;
+      switch (what % 8) {
+        case 0:
+          say(Hello{}, ReplyKind::hello, where, bytes, count);
+          break;
+        case 1:
+          answer(Loaded{}, ReplyKind::loaded, where, bytes, count);
+          break;
+        case 2:
+          answer(Reply{}, ReplyKind::done, where, bytes, count);
+          break;
+        case 3:
+          say(LogLine{}, ReplyKind::log, where, bytes, count);
+          break;
+        case 4:
+          say(CheckFinding{}, ReplyKind::finding, where, bytes, count);
+          break;
+        case 5:
+          ::send(k_control_fd, bytes, count, MSG_NOSIGNAL);
+          break;
+        case 6:
+          std::memcpy(black_box_ + 8 * where, bytes, std::min(count, k_black_box_bytes - 8 * where));
+          break;
+        case 7:
+          ::raise(static_cast<int>(where % 32));
+          break;
+      }
+    }
+  }
+
+ private:
+  template <class Message>
+  void say(Message message, ReplyKind kind, std::size_t where, const unsigned char* bytes,
+           std::size_t count) {
+    Reply reply;
+    reply.kind = kind, reply.cookie = cookie_, reply.serial = serial_;
+    std::memcpy(static_cast<void*>(&message), &reply, sizeof reply);
+    const std::size_t from = std::min(8 * where, sizeof message);
+    std::memcpy(reinterpret_cast<unsigned char*>(&message) + from, bytes,
+                std::min(count, sizeof message - from));
+    ::send(k_control_fd, &message, sizeof message, MSG_NOSIGNAL);
+  }
+
+  /// Once it is asked.
+  template <class Message>
+  void answer(const Message& message, ReplyKind kind, std::size_t where, const unsigned char* bytes,
+              std::size_t count) {
+    Request request;
+    if (::recv(k_control_fd, &request, sizeof request, 0) <= 0) std::_Exit(0);
+    serial_ = request.serial;
+    say(message, kind, where, bytes, count);
+  }
+
+  std::uint64_t cookie_;
+  unsigned char* black_box_;
+  std::vector<unsigned char> script_;
+  std::size_t at_ = 0;
+  std::uint32_t serial_ = 0;
+};
+
 void lie() {
   struct stat status {};
   ::fstat(k_settings_fd, &status);
@@ -97,11 +177,15 @@ void lie() {
       static_cast<const char*>(::mmap(nullptr, bytes, PROT_READ, MAP_SHARED, k_settings_fd, 0));
   Settings settings;
   std::memcpy(&settings, memory, sizeof settings);
-  const char* const seed = memory + sizeof settings + 5;  // "seed", NUL
-  g_random.seed(static_cast<std::uint64_t>(std::atoll(seed)));
-
+  const char* const option = memory + sizeof settings;
+  const char* const value = option + std::strlen(option) + 1;
   // The black box is the rasterizer's to write, too.
   void* const box = ::mmap(nullptr, k_black_box_bytes, PROT_READ | PROT_WRITE, MAP_SHARED, k_black_box_fd, 0);
+  if (std::strcmp(option, "script") == 0) {
+    return Replay(settings.cookie, static_cast<unsigned char*>(box), value).run();
+  }
+  g_random.seed(static_cast<std::uint64_t>(std::atoll(value)));
+
   for (std::size_t i = 0; i < k_black_box_bytes; ++i) static_cast<unsigned char*>(box)[i] = g_random() % 8;
   if (one_in(2)) *static_cast<std::uint32_t*>(box) = static_cast<std::uint32_t>(g_random() % 5);
 
