@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "program_files.h"
 
+#include <unistd.h>
+
+#include <cstdlib>
 #include <system_error>
 
 #include "version.h"
@@ -37,6 +40,18 @@ fs::path include_folder() {
   fs::path in_build_folder = program_folder() / "include";
   if (fs::exists(in_build_folder / "farop" / "rasterizer.h", ec)) return in_build_folder;
   return (program_folder() / k_bin_to_include).lexically_normal();
+}
+
+std::string program_in_path(std::string_view name) {
+  const char* const path = std::getenv("PATH");
+  for (std::string_view rest = path == nullptr ? "" : path; !rest.empty();) {
+    const std::size_t colon = rest.find(':');
+    const fs::path candidate = fs::path(rest.substr(0, colon)) / name;
+    std::error_code ec;
+    if (::access(candidate.c_str(), X_OK) == 0 && !fs::is_directory(candidate, ec)) return candidate;
+    rest = colon == std::string_view::npos ? std::string_view() : rest.substr(colon + 1);
+  }
+  return "";
 }
 
 }  // namespace farop::app

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace farop::app {
 
@@ -17,5 +18,8 @@ std::filesystem::path data_file(const std::string& name);
 /// The folder to give to a compiler, so that it finds farop/rasterizer.h: of the installation, or of the
 /// source tree when the program runs from its build folder.
 std::filesystem::path include_folder();
+
+/// Where the shell would find a program, or "".
+std::string program_in_path(std::string_view name);
 
 }  // namespace farop::app

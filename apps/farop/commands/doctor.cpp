@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 #include <sys/utsname.h>
-#include <unistd.h>
 
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <string_view>
@@ -26,19 +24,8 @@ namespace fs = std::filesystem;
 std::string row(bool there, std::string_view what, std::string_view why, std::string_view remedy) {
   std::string line = fmt::format("  {:<4}{:<18}{}", there ? "yes" : "no", what, why);
   if (!there && !remedy.empty()) line += fmt::format("{}{}", why.empty() ? "" : "; ", remedy);
+  line.erase(line.find_last_not_of(' ') + 1);
   return line + "\n";
-}
-
-/// A program's path in the PATH, or "".
-std::string program(std::string_view name) {
-  const char* const path = std::getenv("PATH");
-  for (std::string_view rest = path == nullptr ? "" : path; !rest.empty();) {
-    const std::size_t colon = rest.find(':');
-    const fs::path candidate = fs::path(rest.substr(0, colon)) / name;
-    if (::access(candidate.c_str(), X_OK) == 0 && !fs::is_directory(candidate)) return candidate;
-    rest = colon == std::string_view::npos ? std::string_view() : rest.substr(colon + 1);
-  }
-  return "";
 }
 
 std::string isolation_section() {
@@ -90,9 +77,10 @@ std::string toolchains_section() {
                         {"make", "make", "make"}};
   std::string text = "Languages for rasterizers\n";
   for (const Tool& tool : tools) {
-    const std::string path = program(tool.program);
-    const std::string remedy =
-        *tool.package == 0 ? "Debian has no package of it" : fmt::format("apt-get install {}", tool.package);
+    const std::string path = program_in_path(tool.program);
+    const std::string remedy = *tool.package == 0
+                                   ? "Debian has no package of it: https://ziglang.org/download"
+                                   : fmt::format("apt-get install {}", tool.package);
     text += row(!path.empty(), tool.what, path, remedy);
   }
   const fs::path adapter = library_file("farop-python.so");

@@ -35,11 +35,12 @@ struct Language {
   const char* name;   ///< as --lang takes it; its rules for make are templates/NAME.mk
   const char* title;  ///< as people write it
   const char* suffix;
+  const char* compiler;  ///< none for Python
 };
 
 constexpr Language k_languages[] = {
-    {"c", "C", "c"},       {"c++", "C++", "cpp"},      {"rust", "Rust", "rs"},
-    {"zig", "Zig", "zig"}, {"python", "Python", "py"}, {"fortran", "Fortran", "f90"}};
+    {"c", "C", "c", "cc"},        {"c++", "C++", "cpp", "c++"},   {"rust", "Rust", "rs", "rustc"},
+    {"zig", "Zig", "zig", "zig"}, {"python", "Python", "py", ""}, {"fortran", "Fortran", "f90", "gfortran"}};
 
 struct Algorithm {
   const char* name;   ///< as --algorithm takes it; its words in the README are templates/NAME.md
@@ -246,6 +247,10 @@ void run(Session& session, const NewOptions& options) {
   session.console.summary("{}: {}\nnext:\n  cd {}", printable(folder, 4096), list, shell_word(folder));
   session.console.summary("  make picture    builds it and draws gears into picture.png");
   session.console.summary("  make check      compares three scenes with what they should look like");
+  for (const std::string_view needed : {std::string_view(language.compiler), std::string_view("make")}) {
+    if (needed.empty() || !program_in_path(needed).empty()) continue;
+    session.console.summary("first: there is no {} here; `farop doctor` says how to get it", needed);
+  }
 }
 
 }  // namespace
