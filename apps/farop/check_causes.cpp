@@ -51,10 +51,7 @@ void blame_threads(const CheckedRun& run, const std::vector<Case>& cases, CheckR
   result.findings.erase(std::remove_if(std::next(first), result.findings.end(), repeats),
                         result.findings.end());
   for (CaseResult& row : result.cases) {
-    const auto end = std::ranges::remove_if(row.verdicts, is_repeat).begin();
-    if (end == row.verdicts.end()) continue;
-    row.verdicts.erase(end, row.verdicts.end());
-    row.verdicts.emplace_back("det.threads");
+    if (std::erase_if(row.verdicts, is_repeat) > 0) row.verdicts.emplace_back("det.threads");
   }
 }
 

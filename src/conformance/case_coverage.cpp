@@ -14,7 +14,9 @@ namespace {
 void collect(const Run& run, const Drawing& drawing, const Framebuffer& picture,
              std::vector<Evidence>& evidence, std::vector<WrongSample>& strays, std::uint64_t& truncated) {
   std::vector<std::vector<std::size_t>> by_color(32 * 32);
-  const auto key = [](int r, int g) { return static_cast<std::size_t>(r / 8 * 32 + g / 8); };
+  const auto key = [](int r, int g) {
+    return static_cast<std::size_t>(r / 8) * 32 + static_cast<std::size_t>(g / 8);
+  };
   for (std::size_t k = 0; k < drawing.polygons.size(); ++k) {
     const ScreenVertex& v = drawing.polygons[k].front();
     by_color[key(v.r, v.g)].push_back(k);

@@ -45,7 +45,7 @@ void note_truncation(const Run& run, const Case& c, const Drawing& given, std::u
   Problem p;
   p.case_id = c.id(), p.verdict = "colour.truncation", p.drawing = given, p.got = picture,
   p.count = truncated;
-  p.severity = run.options.precision == Precision_ask::normal ? Severity::warning : Severity::error;
+  p.severity = run.options.precision == PrecisionAsk::normal ? Severity::warning : Severity::error;
   p.message = "a constant colour comes out one less",
   p.hint = "round, or interpolate integers: weights that add up to 0.99999 lose one";
   out.problems.push_back(std::move(p));

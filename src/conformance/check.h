@@ -18,7 +18,7 @@ namespace farop::conformance {
 struct CheckOptions {
   /// Fill rule that passes: a name of rule_name(); other consistent or named rules stay errors.
   std::string accepted_rule = "lb";
-  Precision_ask precision = Precision_ask::normal;
+  PrecisionAsk precision = PrecisionAsk::normal;
   int workers = 1;     ///< lives at a time
   bool shrink = true;  ///< look for the smallest example of each finding
   bool repeat = true;  ///< family det

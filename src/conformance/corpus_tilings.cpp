@@ -110,7 +110,7 @@ void add_concave_pairs(CorpusBuilder& b) {
     // The rest of the frame: around the border, in over a bridge to the lowest corner, round it, and back.
     const auto lowest =
         std::ranges::min_element(ring, {}, [](const Point& p) { return std::pair(p.y, p.x); });
-    std::ranges::rotate(ring, lowest);
+    std::rotate(ring.begin(), lowest, ring.end());
     Points rest = {{ring.front().x, 0}, {63, 0}, {63, 63}, {0, 63}, {0, 0}, {ring.front().x, 0}};
     rest.push_back(ring.front());
     for (std::size_t k = ring.size() - 1; k > 0; --k) rest.push_back(ring[k]);

@@ -201,7 +201,7 @@ Looks look(const Evidence& e, const Bitmap& required) {
 CoverageCause cause_by_looks(const std::vector<Evidence>& evidence, const std::vector<Bitmap>& required) {
   Looks sum;
   bool only_concave = true, only_thin = true, only_clockwise = true, only_counter = true, both_ways = false;
-  std::uint64_t wrong = 0, far = 0, polygons = 0;
+  std::uint64_t far = 0, polygons = 0;
   bool only_doubled = true, some_area = false;
   for (std::size_t i = 0; i < evidence.size(); ++i) {
     if (evidence[i].wrong == 0) continue;
@@ -216,7 +216,7 @@ CoverageCause cause_by_looks(const std::vector<Evidence>& evidence, const std::v
     (l.clockwise ? only_counter : only_clockwise) = false;
     // Only there everything comes in both directions.
     both_ways = both_ways || evidence[i].name == "tri4" || evidence[i].name == "quad4";
-    wrong += evidence[i].wrong, far += evidence[i].far_away;
+    far += evidence[i].far_away;
     only_doubled = only_doubled && std::ranges::any_of(evidence[i].polygons, walks_an_edge_twice);
     some_area = some_area ||
                 std::ranges::any_of(evidence[i].polygons, [](const auto& p) { return twice_area(p) != 0; });

@@ -62,7 +62,7 @@ class ChannelJudge {
     const double size = error.value();
     Rational near = tolerance.unremarkable, far = tolerance.bound;
     if (unit_ != scale_) near = near + Rational{unit_, 2 * scale_}, far = far + Rational{unit_, 2 * scale_};
-    if (options_.precision != Precision_ask::normal) {
+    if (options_.precision != PrecisionAsk::normal) {
       near = near - Rational{1, 2};
       far = near;
     }

@@ -20,7 +20,7 @@ struct WrongSample {
   Color got{};
 };
 
-enum class Precision_ask : std::uint8_t { normal, nearest, exact };
+enum class PrecisionAsk : std::uint8_t { normal, nearest, exact };
 
 struct JudgeOptions {
   Color background{};
@@ -28,7 +28,7 @@ struct JudgeOptions {
   /// there.
   bool skip_boundary = false;
   bool free_interpolation = false;
-  Precision_ask precision = Precision_ask::normal;
+  PrecisionAsk precision = PrecisionAsk::normal;
 };
 
 struct Judged {

@@ -28,7 +28,7 @@ bool leaves_state_behind(Run& run, const std::string& case_id, const Drawing& gi
   const Delivered first = run.draw(*life, given), second = run.draw(*life, given);
   if (!first.picture) return false;
   const Expectation expected(given, ConsistentRule::lb);
-  const JudgeOptions how{run.background(), false, false, Precision_ask::normal};
+  const JudgeOptions how{run.background(), false, false, PrecisionAsk::normal};
   if (!judge(expected, *first.picture, how).wrong.empty()) return false;
   if (second.picture && judge(expected, *second.picture, how).wrong.size() < 3) return false;
   Problem p;
@@ -70,7 +70,7 @@ bool does_not_repeat(Run& run, const CoverageCause& cause, const Outcome& all) {
     const Delivered d = run.draw(*life, given);
     if (!d.picture) return false;
     const Expectation expected(given, ConsistentRule::lb);
-    if (!judge(expected, *d.picture, {run.background(), false, false, Precision_ask::normal}).wrong.empty())
+    if (!judge(expected, *d.picture, {run.background(), false, false, PrecisionAsk::normal}).wrong.empty())
       return false;
   }
   return tried > 0;

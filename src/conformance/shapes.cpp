@@ -23,7 +23,8 @@ TestPolygon moved(TestPolygon polygon, int dx, int dy) {
 }
 
 TestPolygon starting_at(TestPolygon polygon, std::size_t first) {
-  std::ranges::rotate(polygon, polygon.begin() + static_cast<std::ptrdiff_t>(first % polygon.size()));
+  std::rotate(polygon.begin(), polygon.begin() + static_cast<std::ptrdiff_t>(first % polygon.size()),
+              polygon.end());
   return polygon;
 }
 

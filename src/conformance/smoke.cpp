@@ -23,7 +23,7 @@ struct Smoke {
 Judged judged_after(const Run& run, const Smoke& s, const Transform& t) {
   const Expectation expected(s.given, ConsistentRule::lb);
   return judge(expected, t.undo(s.picture, run.background()),
-               {run.background(), false, false, Precision_ask::normal});
+               {run.background(), false, false, PrecisionAsk::normal});
 }
 
 bool untouched(const Framebuffer& picture, const Color& background) {

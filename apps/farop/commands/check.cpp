@@ -193,9 +193,9 @@ RunFacts facts_of(const CheckCommand& command, const std::vector<Case>& cases) {
 CheckOptions check_options(const CheckCommand& command, const RunFacts& facts) {
   CheckOptions options;
   options.accepted_rule = command.accepted;
-  options.precision = command.precision == "nearest" ? Precision_ask::nearest
-                      : command.precision == "exact" ? Precision_ask::exact
-                                                     : Precision_ask::normal;
+  options.precision = command.precision == "nearest" ? PrecisionAsk::nearest
+                      : command.precision == "exact" ? PrecisionAsk::exact
+                                                     : PrecisionAsk::normal;
   options.workers = facts.workers, options.shrink = command.shrink;
   return options;
 }
