@@ -141,6 +141,7 @@ class Measurement {
     const auto wide = [](const Probe& p) { return p.high - p.low > 1; };
     while (std::ranges::any_of(probes, wide)) {
       std::vector<std::int64_t> depths;
+      depths.reserve(probes.size());
       for (const Probe& p : probes) depths.push_back(wide(p) ? p.low + (p.high - p.low) / 2 : -1);
       const auto shows = probes_show(run_, case_, subject_, given_, probes, depths, out_);
       if (!shows) return false;
