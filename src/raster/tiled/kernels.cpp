@@ -325,6 +325,11 @@ HWY_INLINE std::int64_t to_upper(std::int64_t fixed) {
   return static_cast<std::int64_t>(static_cast<std::uint64_t>(fixed) << k_to_upper);
 }
 
+/// Modulo 2^64: samples of a vector that a triangle does not cover may lie anywhere.
+HWY_INLINE std::int64_t sum(std::int64_t a, std::int64_t b) {
+  return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));
+}
+
 /// Colours of fixed-point channels.
 HWY_INLINE WideWordVector pack(WideWordVector r, WideWordVector g, WideWordVector b) {
   return hn::Or(hn::ShiftRight<24>(r), hn::Or(hn::And(hn::ShiftRight<16>(g), hn::Set(dww, 0xFF00u)),
@@ -564,7 +569,8 @@ class Drawer {
       const auto step = static_cast<std::uint32_t>(x);
       const std::uint32_t there[3] = {color[0] + step * s_.color_x[0][i], color[1] + step * s_.color_x[1][i],
                                       color[2] + step * s_.color_x[2][i]};
-      draw_vector<k_transparent>(i, sample + x, count - x, depth + to_upper(x * s_.depth_x[i]), there, lanes);
+      draw_vector<k_transparent>(i, sample + x, count - x, sum(depth, to_upper(x * s_.depth_x[i])), there,
+                                 lanes);
     }
   }
 

@@ -13,6 +13,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/task_order.h"
 #include "raster/corner_color.h"
 #include "raster/perspective.h"
 #include "raster/resolve.h"
@@ -70,7 +71,15 @@ class TiledFrame::Workers {
       for (int i = 0; i < count; ++i) work(i);
       return;
     }
-    arena_.execute([&] { tbb::parallel_for(0, count, work, tbb::simple_partitioner()); });
+    TaskOrder order;
+    const auto in_order = [&](int i) {
+      order.begin();
+      work(i);
+      order.end();
+    };
+    order.before_all();
+    arena_.execute([&] { tbb::parallel_for(0, count, in_order, tbb::simple_partitioner()); });
+    order.after_all();
   }
 
  private:
