@@ -39,7 +39,7 @@ const std::map<std::string, Rooms> k_may_include = {
 const std::map<std::string, Rooms> k_guests = {{"CGAL", {"src/geometry", "src/solids"}},
                                                {"OpenImageIO", {"src/export"}},
                                                {"CLI", {"apps/farop"}},
-                                               {"hwy", {"src/raster", "src/geometry"}},
+                                               {"hwy", {"src/raster", "src/geometry", "apps/farop"}},
                                                {"tbb", {"src/parse_nff", "src/raster", "src/geometry"}},
                                                {"tcl.h", {"src/parse_sipp"}},
                                                {"nlohmann", {"apps/farop", "src/conformance_report"}},
