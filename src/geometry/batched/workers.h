@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "core/task_order.h"
+
 namespace farop::batched {
 
 /// Threads for work that falls apart into independent pieces.
@@ -24,14 +26,15 @@ class Workers {
   /// the thread. The caller works too. Passes on what `work` throws.
   template <class Work>
   void run(std::size_t count, const Work& work) {
-    arena_.execute([&] {
-      tbb::parallel_for(
-          std::size_t{0}, count,
-          [&](std::size_t i) {
-            work(i, static_cast<std::size_t>(tbb::this_task_arena::current_thread_index()));
-          },
-          tbb::simple_partitioner());
-    });
+    TaskOrder order;
+    const auto in_order = [&](std::size_t i) {
+      order.begin();
+      work(i, static_cast<std::size_t>(tbb::this_task_arena::current_thread_index()));
+      order.end();
+    };
+    order.before_all();
+    arena_.execute([&] { tbb::parallel_for(std::size_t{0}, count, in_order, tbb::simple_partitioner()); });
+    order.after_all();
   }
 
  private:
