@@ -89,6 +89,7 @@ class InternalRasterizer : public ScreenPolygonSink {
   std::unique_ptr<FilledFrame> filled_;       ///< while a frame of a filled mode is drawn, plain path
   std::unique_ptr<tiled::TiledFrame> tiled_;  ///< of all frames of filled modes, tiled path
   Framebuffer picture_;
+  bool first_picture_ = true;
   RasterCounts counts_;
 };
 
