@@ -12,6 +12,7 @@
 #include "conformance/corpus.h"
 #include "conformance/random.h"
 #include "core/output_file.h"
+#include "drawing_recorder.h"
 #include "export/ppm_reader.h"
 #include "geometry/screen_triangles.h"
 #include "isolate/isolated_rasterizer.h"
@@ -33,22 +34,8 @@ void play(const Drawing& drawing, ScreenPolygonSink& sink) {
   sink.end_frame();
 }
 
-/// Collects what a drawing looks like in triangles.
-class TriangleRecorder : public ScreenPolygonSink {
- public:
-  Drawing drawing;
-  void begin_frame(const ScreenFrame& frame) override { drawing.frame = frame.resolution; }
-  void polygons(const ScreenPolygonBatch& batch) override {
-    for (const ScreenPolygonRecord& record : batch.polygons) {
-      const auto corners = batch.corners(record);
-      drawing.polygons.emplace_back(corners.begin(), corners.end());
-    }
-  }
-  void end_frame() override {}
-};
-
 Drawing as_triangles(const Drawing& drawing) {
-  TriangleRecorder recorder;
+  DrawingRecorder recorder;
   ScreenTriangles triangles(recorder);
   play(drawing, triangles);
   return recorder.drawing;

@@ -45,18 +45,6 @@ bool look_alike(const LoadedView& a, const LoadedView& b) {
          a.viewport.resolution.y == b.viewport.resolution.y;
 }
 
-void add(PolygonCounts& sum, const PolygonCounts& c) {
-  sum.loaded += c.loaded;
-  sum.back_facing += c.back_facing;
-  sum.degenerate += c.degenerate;
-  sum.totally_clipped += c.totally_clipped;
-  sum.rendered += c.rendered;
-  sum.partly_clipped += c.partly_clipped;
-  sum.split_to_triangles += c.split_to_triangles;
-  sum.triangles += c.triangles;
-  sum.vertices += c.vertices;
-}
-
 bool same_counts(const InputSummary& a, const InputSummary& b) {
   return a.bytes == b.bytes && a.surfaces == b.surfaces && a.polygons == b.polygons &&
          a.patches == b.patches && a.spheres == b.spheres && a.cones == b.cones && a.lights == b.lights;
@@ -218,7 +206,7 @@ void StreamedDrawing::draw(const GeometryOptions& options, ScreenPolygonSink& si
       tessellate_scene(part, detail_for(view));
     }
     const GeometryReport drawn = run_geometry(part, setup, options, part_sink, clocks);
-    add(report.counts, drawn.counts);
+    report.counts += drawn.counts;
     report.degenerate_of_input[reading_] += drawn.degenerate_of_input.front();
     session_.clocks.parse.start();
   };

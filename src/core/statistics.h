@@ -23,6 +23,18 @@ struct PolygonCounts {
   std::uint64_t vertices = 0;            ///< polygon corners that were lit and projected
 
   friend bool operator==(const PolygonCounts&, const PolygonCounts&) = default;
+  PolygonCounts& operator+=(const PolygonCounts& c) {
+    loaded += c.loaded;
+    back_facing += c.back_facing;
+    degenerate += c.degenerate;
+    totally_clipped += c.totally_clipped;
+    rendered += c.rendered;
+    partly_clipped += c.partly_clipped;
+    split_to_triangles += c.split_to_triangles;
+    triangles += c.triangles;
+    vertices += c.vertices;
+    return *this;
+  }
 };
 
 /// Seconds of one stage. Cycles and instructions in user mode, where the machine lets us count them.

@@ -20,19 +20,6 @@ constexpr int k_most_threads = 1024;
 /// Polygons between two calls of the progress function.
 constexpr std::uint64_t k_progress_step = 1u << 14;
 
-PolygonCounts& operator+=(PolygonCounts& sum, const PolygonCounts& c) {
-  sum.loaded += c.loaded;
-  sum.back_facing += c.back_facing;
-  sum.degenerate += c.degenerate;
-  sum.totally_clipped += c.totally_clipped;
-  sum.rendered += c.rendered;
-  sum.partly_clipped += c.partly_clipped;
-  sum.split_to_triangles += c.split_to_triangles;
-  sum.triangles += c.triangles;
-  sum.vertices += c.vertices;
-  return sum;
-}
-
 std::size_t thread_count(const GeometryOptions& options) {
   if (options.path == GeometryPath::plain) return 1;
   const int wanted = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
