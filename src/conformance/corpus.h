@@ -69,8 +69,7 @@ struct CorpusOptions {
   std::vector<SceneSource> scenes = {};  ///< what the level has
 };
 
-/// Everything, in the order in which it is run: smoke, cov, tile, depth, colour, meta, abi, det, perf (and x
-/// where asked for).
+/// Everything but `regress`, family by family (corpus_families(); x where asked for).
 std::vector<Case> make_corpus(const CorpusOptions& options);
 
 /// Families in order, with a word about each.
